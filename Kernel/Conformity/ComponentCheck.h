@@ -38,8 +38,8 @@ namespace voxplex
  * whole from the start. The mean thickness of a component is estimated from the ratio of its volume
  * to its surface. This ratio is a third of the thickness for a ball or cube, and half of it for a
  * sheet or a rod. If the thickness is small compared with delta, the component's surroundings get a
- * smaller delta, and points on all of its faces are inserted before refinement. R1
- * alone may never see a small component, because it looks only at the interface closest to a
+ * smaller delta, and points on all of its faces are inserted before refinement. Rules
+ * alone may never see a small component, because they look only at the interface closest to a
  * circumcentre.
  *
  * This goes beyond the thesis, which samples uniformly or by the local feature size and gives no

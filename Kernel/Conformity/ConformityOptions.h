@@ -49,7 +49,7 @@ struct InterfaceOptions
   unsigned Rounds = 8;
   /**
    * Make the boundary of every label manifold: two of its facets meet at each edge, in space-time at
-   * each triangle. Some simplices may be cut in pieces for this (MakeSpindles); the pieces are not
+   * each triangle. Some simplices may be cut in pieces for this (OpenRidges); the pieces are not
    * Delaunay. Does not depend on Rounds.
    */
   bool Manifold = true;

@@ -176,7 +176,7 @@ void FragmentCheck::Report(const std::vector<Pieces>& pieces)
     if (this->Exact || largest < WholeFraction)
     {
       this->Statistics.Broken.push_back(
-        { ReportOf(this->Of.All.All()[c], this->Of.Image), pieces[c].Number, largest });
+        { MakeReport(this->Of.All.All()[c], this->Of.Image), pieces[c].Number, largest });
     }
   }
 }

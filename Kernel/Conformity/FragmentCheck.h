@@ -33,7 +33,7 @@ namespace voxplex
  *
  * A fragment belongs to the component in whose voxels the centroid of one of its tetrahedra lies. The
  * fragment with the largest volume stays as it is. Where one of the others ends, and the component goes
- * on, interfaces are sampled more finely, and R1 gets a smaller sampling distance, at each round again,
+ * on, interfaces are sampled more finely, with a smaller sampling distance, at each round again,
  * until the component is in one fragment.
  *
  * More points can connect each component, because the label field does: it has the label of two

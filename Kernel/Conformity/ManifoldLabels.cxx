@@ -3,8 +3,8 @@
 #include "Conformity/ManifoldLabels.h"
 
 #include "Base/UninitialisedVector.h"
-#include "Conformity/Crumbs.h"
 #include "Conformity/InterfaceVertices.h"
+#include "Conformity/LooseFragments.h"
 #include "Conformity/RepairNeighbourhood.h"
 #include "Parallel/ParallelCollect.h"
 
@@ -70,8 +70,8 @@ ManifoldLabels<D> ManifoldLabeller<D>::Make(InterfaceStatistics& statistics)
     const std::vector<SimplexId> small = areFew
       ? FindSmallFragmentsAt(this->Source, made.Labels, changed, this->Threads, this->Stop)
       : FindSmallFragments(this->Source, made.Labels, this->Threads, this->Stop);
-    const std::vector<SimplexId> relabelled =
-      RelabelCrumbs(this->Source, made.Labels, small, this->Options, this->Threads, this->Stop);
+    const std::vector<SimplexId> relabelled = RelabelLooseFragments(
+      this->Source, made.Labels, small, this->Options, this->Threads, this->Stop);
     changed.insert(changed.end(), relabelled.begin(), relabelled.end());
   }
   const std::vector<InterfaceRidge<D>> ridges = areFew

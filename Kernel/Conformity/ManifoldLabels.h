@@ -31,7 +31,7 @@ struct ManifoldLabels
 /**
  * @brief Labels the simplices of a triangulation so that boundaries of labels are manifold.
  *
- * Each simplex gets the label at its circumcentre. Then RelabelCrumbs() (3D) and RepairManifold() give
+ * Each simplex gets the label at its circumcentre. Then RelabelLooseFragments() (3D) and RepairManifold() give
  * some of them another label.
  *
  * A simplex keeps the label that it was given as long as it lives (SimplexState::Given). After further
@@ -61,7 +61,7 @@ public:
    */
   ManifoldLabels<D> Make(InterfaceStatistics& statistics);
 
-  /** The labels at the circumcentres: no crumb and no ridge is looked for. */
+  /** The labels at the circumcentres: no loose fragment and no ridge is looked for. */
   SimplexLabels MakePlain() const;
 
 private:

@@ -109,7 +109,7 @@ public:
   }
 
 private:
-  struct Entry
+  struct KnownProposal
   {
     Proposal Of;
     std::uint32_t Time = 0; ///< the number of changes when it was proposed, plus 1; 0: never
@@ -119,7 +119,7 @@ private:
   template <typename Finder, typename Propose>
   void Update(std::size_t k, const Finder& finder, const Propose& propose)
   {
-    Entry& entry = this->Entries[k];
+    KnownProposal& entry = this->Entries[k];
     const bool isRight = entry.Time != 0 &&
       std::all_of(entry.Of.Seen.begin(), entry.Of.Seen.end(),
         [&](VertexId v) { return this->LastChanges[v] < entry.Time; });
@@ -148,7 +148,7 @@ private:
   const unsigned Threads;
   const std::stop_token& Stop;
   std::vector<std::uint32_t> LastChanges; ///< around each vertex: the time of the last
-  std::vector<Entry> Entries;             ///< of each defect
+  std::vector<KnownProposal> Entries;     ///< of each defect
   std::vector<SimplexId> Changed;         ///< may be repeated
   std::uint32_t Time = 1;                 ///< the number of changes, plus 1
 };

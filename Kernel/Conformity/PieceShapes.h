@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file PieceShapes.h
- * @brief Internal to EdgeSpindles: how good the shapes of pieces are.
+ * @brief Internal to OpenRidges: how good the shapes of pieces are.
  */
 #ifndef voxplex_PieceShapes_h
 #define voxplex_PieceShapes_h
@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace voxplex::spindles
+namespace voxplex::opening
 {
 
 /**
@@ -166,6 +166,6 @@ private:
   const SizingField<D>* const Sizing;
 };
 
-} // namespace voxplex::spindles
+} // namespace voxplex::opening
 
 #endif

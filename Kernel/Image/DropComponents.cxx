@@ -85,7 +85,7 @@ std::vector<ComponentReport> DropComponents(
       }
       components.ForEachRun(
         c, [&](const auto& first, std::int64_t length) { image.Relabel(first, length, label); });
-      dropped.push_back(ReportOf(component, image));
+      dropped.push_back(MakeReport(component, image));
       any = true;
     }
   }

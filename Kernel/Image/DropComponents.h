@@ -26,7 +26,7 @@ struct ComponentReport
 };
 
 template <int D>
-ComponentReport ReportOf(const Component<D>& component, const LabelImage<D>& image)
+ComponentReport MakeReport(const Component<D>& component, const LabelImage<D>& image)
 {
   ComponentReport report{ image.Values()[component.Label], component.Voxels, {} };
   for (std::size_t a = 0; a < D; ++a)

@@ -3,7 +3,7 @@
 #include "Mesher/MeshFinishing.h"
 
 #include "Base/Stopwatch.h"
-#include "Conformity/EdgeSpindles.h"
+#include "Conformity/OpenRidges.h"
 #include "Mesh/MeshExtraction.h"
 #include "Mesh/Subdivision.h"
 #include "Mesher/Inspection.h"
@@ -74,7 +74,7 @@ void ListLostComponents(const RunEnvironment<D>& run, const SimplexMesh<D>& mesh
       for (const std::uint32_t c :
         FindLostComponents(components, image, mesh, wanted, run.Options.Team.Threads, run.Stop))
       {
-        statistics.Lost.push_back(ReportOf(components.All()[c], image));
+        statistics.Lost.push_back(MakeReport(components.All()[c], image));
       }
     });
   run.Statistics.Times.Components += time.Seconds();
@@ -207,7 +207,7 @@ void Extract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
   const Domain<D>& surfaces = *run.Prepared.Surfaces;
   const unsigned threads = run.Options.Team.Threads;
   UninitialisedVector<Point<D>> positions; // empty: those of the triangulation
-  SpindleContext<D> context;
+  OpeningContext<D> context;
   const std::unique_ptr<const SizingField<D>> sizes = MakeSizes(run);
   context.Sizing = sizes.get();
   // In 3D shapes and sizes are left to optimisation.
@@ -217,8 +217,8 @@ void Extract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
   }
   context.Positions = positions;
   context.Keeps = KeepsItsLabel(run, source);
-  SpindleResult<D> opened =
-    MakeSpindles<D>(source, surfaces, labels.Labels, labels.NonManifold, run.Stop, context);
+  OpenedRidges<D> opened =
+    OpenRidges<D>(source, surfaces, labels.Labels, labels.NonManifold, run.Stop, context);
   run.Statistics.Interfaces.CountOpened(labels.NonManifold.size(), opened.Left.size());
   if constexpr (D == 3)
   {

@@ -29,7 +29,7 @@ struct ExtractedMesh
 
 /**
  * Moves the vertices of interfaces so that volumes are right (FitInterfaces), opens the ridges
- * that are not manifold (MakeSpindles), and extracts the mesh. The fit keeps all components.
+ * that are not manifold (OpenRidges), and extracts the mesh. The fit keeps all components.
  *
  * @param stage in 3D only the points and the simplices of its mesh can be read afterwards
  * @param mesh receives the mesh

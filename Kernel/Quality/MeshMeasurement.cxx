@@ -109,7 +109,7 @@ ComponentComparison CompareComponents(const SimplexMesh<D>& mesh, const LabelIma
   comparison.Wanted = static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), true));
   for (const std::uint32_t c : FindLostComponents(components, image, mesh, wanted, threads, stop))
   {
-    comparison.Lost.push_back(ReportOf(components.All()[c], image));
+    comparison.Lost.push_back(MakeReport(components.All()[c], image));
   }
   return comparison;
 }

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Crumbs get the label beside them, and thin components hold together if they are to be exact.
+// Loose fragments get the label beside them, and thin components hold together if they are to be exact.
 #include "Base/DisjointSets.h"
 #include "Base/Error.h"
-#include "Conformity/Crumbs.h"
-#include "Conformity/EdgeSpindles.h"
 #include "Conformity/ElementFragments.h"
+#include "Conformity/LooseFragments.h"
 #include "Conformity/NonManifoldRidges.h"
+#include "Conformity/OpenRidges.h"
 #include "Domain/ImageDomain.h"
 #include "Geometry/SimplexQuality.h"
 #include "Image/Components.h"
@@ -54,7 +54,7 @@ struct LabelledBlobs
   {
     ManifoldRepairOptions<3> options;
     options.Surfaces = &this->Surfaces;
-    return RelabelCrumbs(this->Mesh(), this->Labels,
+    return RelabelLooseFragments(this->Mesh(), this->Labels,
       FindSmallFragments(this->Mesh(), this->Labels, threads, stop), options, threads, stop);
   }
 
@@ -84,8 +84,8 @@ struct LabelledBlobs
     return fragments;
   }
 
-  /** The simplices of crumbs, found without the code under test. */
-  std::vector<SimplexId> Crumbs() const
+  /** The simplices of loose fragments, found without the code under test. */
+  std::vector<SimplexId> LooseSimplices() const
   {
     const auto fragments = this->Fragments();
     std::map<std::pair<VertexId, LabelId>, std::size_t> largest;
@@ -100,7 +100,7 @@ struct LabelledBlobs
         }
       }
     }
-    std::vector<SimplexId> crumbs;
+    std::vector<SimplexId> looseFragments;
     for (const auto& [name, simplices] : fragments)
     {
       bool hangs = false;
@@ -120,11 +120,11 @@ struct LabelledBlobs
       }
       if (simplices.size() <= 5 && hangs && hasEnd)
       {
-        crumbs.insert(crumbs.end(), simplices.begin(), simplices.end());
+        looseFragments.insert(looseFragments.end(), simplices.begin(), simplices.end());
       }
     }
-    std::sort(crumbs.begin(), crumbs.end());
-    return crumbs;
+    std::sort(looseFragments.begin(), looseFragments.end());
+    return looseFragments;
   }
 
   LabelImage<3> Image;
@@ -305,37 +305,39 @@ SimplexMesh<3> MeshListed(const LabelImage<3>& image, const MeshingOptions<3>& o
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-TEST(Crumbs, GetTheLabelBesideThem)
+TEST(LooseFragments, GetTheLabelBesideThem)
 {
   std::size_t found = 0;
   for (unsigned seed = 1; seed <= 6; ++seed)
   {
     LabelledBlobs blobs(seed);
     const SimplexLabels before = blobs.Labels;
-    const std::vector<SimplexId> crumbs = blobs.Crumbs();
+    const std::vector<SimplexId> looseFragments = blobs.LooseSimplices();
     const std::vector<SimplexId> changed = blobs.Relabel(1);
-    EXPECT_TRUE(std::includes(crumbs.begin(), crumbs.end(), changed.begin(), changed.end()));
-    EXPECT_LE(4 * blobs.Crumbs().size(), crumbs.size()); // some must keep angles good, or are new
+    EXPECT_TRUE(
+      std::includes(looseFragments.begin(), looseFragments.end(), changed.begin(), changed.end()));
+    EXPECT_LE(4 * blobs.LooseSimplices().size(),
+      looseFragments.size()); // some must keep angles good, or are new
     found += changed.size();
     for (SimplexId s = 0; s < before.size(); ++s)
     {
       const bool isChanged = std::binary_search(changed.begin(), changed.end(), s);
       EXPECT_EQ(blobs.Labels[s] != before[s], isChanged);
-      if (isChanged) // to a label beside its crumb
+      if (isChanged) // to a label beside its loose fragment
       {
-        std::vector<SimplexId> crumb{ s };
+        std::vector<SimplexId> loose{ s };
         bool isBeside = false;
-        for (std::size_t k = 0; k < crumb.size(); ++k)
+        for (std::size_t k = 0; k < loose.size(); ++k)
         {
-          for (const SimplexId n : blobs.NeighboursOf(crumb[k]))
+          for (const SimplexId n : blobs.NeighboursOf(loose[k]))
           {
             const LabelId now = n == None ? LabelId{ 0 } : blobs.Labels[n];
             isBeside =
               isBeside || (now == blobs.Labels[s] && (n == None || before[n] != before[s]));
             if (n != None && before[n] == before[s] &&
-              std::find(crumb.begin(), crumb.end(), n) == crumb.end())
+              std::find(loose.begin(), loose.end(), n) == loose.end())
             {
-              crumb.push_back(n);
+              loose.push_back(n);
             }
           }
         }
@@ -346,7 +348,7 @@ TEST(Crumbs, GetTheLabelBesideThem)
   EXPECT_GT(found, 10u);
 }
 
-TEST(Crumbs, DoNotDependOnThreads)
+TEST(LooseFragments, DoNotDependOnThreads)
 {
   LabelledBlobs one(1);
   LabelledBlobs three(1);
@@ -355,7 +357,7 @@ TEST(Crumbs, DoNotDependOnThreads)
   EXPECT_TRUE(std::equal(one.Labels.begin(), one.Labels.end(), three.Labels.begin()));
 }
 
-TEST(Crumbs, CanBeStopped)
+TEST(LooseFragments, CanBeStopped)
 {
   LabelledBlobs blobs(1);
   std::stop_source source;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Labels stay with their simplices through further refinement, and boundaries are as manifold as if all
 // simplices were looked at.
-#include "Conformity/Crumbs.h"
+#include "Conformity/LooseFragments.h"
 #include "Conformity/ManifoldLabels.h"
 #include "Delaunay/VertexStar.h"
 #include "Domain/ImageDomain.h"
@@ -177,7 +177,7 @@ TEST(ManifoldLabels, AreMadeAgain)
   }
 }
 
-// Crumbs become crumbs, or no crumbs any more, because of new tetrahedra at a vertex.
+// Fragments become loose, or are not loose any more, because of new tetrahedra at a vertex.
 TEST(ManifoldLabels, AreMadeAgainAmongManyLabels)
 {
   constexpr std::int64_t Side = 24;

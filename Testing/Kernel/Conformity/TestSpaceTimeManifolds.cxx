@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boundaries of labels in space-time are 3-manifolds at all triangles, on any labels, also where the mesh ends flat.
 #include "CallableSize.h"
-#include "Conformity/EdgeSpindles.h"
 #include "Conformity/ManifoldLabels.h"
+#include "Conformity/OpenRidges.h"
 #include "MeshChecks.h"
 #include "Refinement/Rules/Rules4D.h"
 #include "RefinementChecks.h"
@@ -94,7 +94,7 @@ struct Opened
   {
     ExtractMesh<4>(triangulation, domain, labels, this->Before, threads, {}, {}, &this->Numbers);
     this->Triangles = BadTriangles(this->Before, this->Numbers);
-    this->Result = MakeSpindles<4>(triangulation, domain, labels, this->Triangles);
+    this->Result = OpenRidges<4>(triangulation, domain, labels, this->Triangles);
     ExtractMesh<4>(triangulation, domain, labels, this->After, threads, {},
       { {}, this->Result.Parts }, &this->Numbers);
   }
@@ -121,7 +121,7 @@ struct Opened
   }
 
   std::vector<InterfaceRidge<4>> Triangles;
-  SpindleResult<4> Result;
+  OpenedRidges<4> Result;
   SimplexMesh<4> Before;
   SimplexMesh<4> After;
   UninitialisedVector<std::uint32_t> Numbers;
@@ -180,7 +180,7 @@ LabelImage<4> Noise(
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-TEST(SpaceTimeSpindles, OpenAllTrianglesOfShuffledLabels)
+TEST(SpaceTimeRidges, OpenAllTrianglesOfShuffledLabels)
 {
   const AnyLabels ball(3.0);
   const RefinedObject refined(ball, 1.4);
@@ -203,7 +203,7 @@ TEST(SpaceTimeSpindles, OpenAllTrianglesOfShuffledLabels)
 }
 
 // Around triangles on the flat ends, pentatopes form no circle.
-TEST(SpaceTimeSpindles, KeepFlatEnds)
+TEST(SpaceTimeRidges, KeepFlatEnds)
 {
   const LabelImage<4> image = ImageOf(PulsatingBalls(5, 3.0, 0.0));
   const ImageDomain<4> domain(image, 1.0);
@@ -247,7 +247,7 @@ TEST(SpaceTimeSpindles, KeepFlatEnds)
   }
 }
 
-TEST(SpaceTimeSpindles, DoNotDependOnThreads)
+TEST(SpaceTimeRidges, DoNotDependOnThreads)
 {
   const AnyLabels ball(3.0);
   const RefinedObject refined(ball, 1.4);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Conformity/Crumbs.h"
+#include "Conformity/LooseFragments.h"
 
 #include "Conformity/ChangeRules.h"
 #include "Conformity/OrderedChanges.h"
@@ -25,64 +25,67 @@ namespace voxplex
 namespace
 {
 
-/** The largest number of tetrahedra of a crumb. */
-constexpr std::size_t MostOfACrumb = 5;
+/** The largest number of tetrahedra of a loose fragment. */
+constexpr std::size_t MostSimplices = 5;
 
-/** A crumb. */
+/** A loose fragment. */
 using Fragment = std::vector<SimplexId>;
 
-/** A crumb, or some tetrahedra of a larger fragment. */
-using Some = boost::container::small_vector<SimplexId, MostOfACrumb + 4>;
+/** A small fragment, or some tetrahedra of a larger fragment. */
+using FewSimplices = boost::container::small_vector<SimplexId, MostSimplices + 4>;
 
-class CrumbFinder
+class LooseFragmentFinder
 {
 public:
   /** Both must outlive this object. */
-  CrumbFinder(const Triangulation<3>& triangulation, const SimplexLabels& labels)
+  LooseFragmentFinder(const Triangulation<3>& triangulation, const SimplexLabels& labels)
     : Mesh(triangulation)
     , Labels(labels)
   {
   }
 
-  /** Whether s may begin a search, and its fragment is as small as a crumb. */
+  /** Whether s may begin a search, and its fragment is as small as a loose fragment. */
   bool IsSmall(SimplexId s) const
   {
-    return this->MayBegin(s) && this->SomeOf(s).size() <= MostOfACrumb;
+    return this->MayBegin(s) && this->FragmentAt(s).size() <= MostSimplices;
   }
 
-  /** The crumb that s is of, ascending, if s is its first tetrahedron that may begin a search. */
-  std::optional<Fragment> CrumbOf(SimplexId s) const
+  /**
+   * The loose fragment that s is of, ascending, if s is its first tetrahedron that may begin a
+   * search.
+   */
+  std::optional<Fragment> FindLooseFragment(SimplexId s) const
   {
-    const Some some = this->SomeOf(s);
+    const FewSimplices some = this->FragmentAt(s);
     Fragment fragment(some.begin(), some.end());
     std::sort(fragment.begin(), fragment.end());
     const auto first = std::find_if(
       fragment.begin(), fragment.end(), [this](SimplexId t) { return this->MayBegin(t); });
-    const bool isCrumb = *first == s &&
+    const bool isLoose = *first == s &&
       this->HangsOnLarger(
         fragment,
         [this](VertexId v, SimplexId t, const auto& condition)
         { return AnyInStar(this->Mesh, v, t, condition); },
-        [](const Some&) {});
-    return isCrumb ? std::optional(std::move(fragment)) : std::nullopt;
+        [](const FewSimplices&) {});
+    return isLoose ? std::optional(std::move(fragment)) : std::nullopt;
   }
 
   /**
-   * Whether something that was a crumb still is one.
+   * Whether something that was a loose fragment still is one.
    * @param seen receives the vertices of simplices that were looked at, except those of stars
    */
-  bool IsCrumb(
-    const Fragment& crumb, const repair::Neighbourhood<3>& near, std::vector<VertexId>& seen) const
+  bool IsLoose(
+    const Fragment& loose, const repair::Neighbourhood<3>& near, std::vector<VertexId>& seen) const
   {
-    return this->SomeOf(crumb.front()).size() == crumb.size() &&
+    return this->FragmentAt(loose.front()).size() == loose.size() &&
       this->HangsOnLarger(
-        crumb,
+        loose,
         [&near](VertexId v, SimplexId, const auto& condition)
         {
           const std::vector<SimplexId>& star = near.StarOf(v);
           return std::any_of(star.begin(), star.end(), condition);
         },
-        [&](const Some& some)
+        [&](const FewSimplices& some)
         {
           for (const SimplexId t : some)
           {
@@ -92,11 +95,11 @@ public:
         });
   }
 
-  /** The fragment of s, if it has at most MostOfACrumb tetrahedra; otherwise more than these. */
-  Some SomeOf(SimplexId s) const
+  /** The fragment of s, if it has at most MostSimplices tetrahedra; otherwise more than these. */
+  FewSimplices FragmentAt(SimplexId s) const
   {
-    Some found{ s };
-    for (std::size_t k = 0; k < found.size() && found.size() <= MostOfACrumb; ++k)
+    FewSimplices found{ s };
+    for (std::size_t k = 0; k < found.size() && found.size() <= MostSimplices; ++k)
     {
       for (const SimplexId n : this->Mesh.GetSimplex(found[k]).N)
       {
@@ -145,7 +148,7 @@ private:
       {
         return false;
       }
-      const Some some = this->SomeOf(t);
+      const FewSimplices some = this->FragmentAt(t);
       lookedAt(some);
       return some.size() > fragment.size();
     };
@@ -171,19 +174,20 @@ double AreaOf(const Triangulation<3>& mesh, const repair::Facet<3>& facet)
 }
 
 /**
- * The changes that give a crumb a label beside it, the one with the largest common area first.
- * @param crumbs all simplices of crumbs, ascending
+ * The changes that give a loose fragment a label beside it, the one with the largest common area
+ * first.
+ * @param looseFragments all simplices of loose fragments, ascending
  */
-std::vector<repair::Change> ChangesOf(const Fragment& crumb, const Triangulation<3>& mesh,
-  const SimplexLabels& labels, const std::vector<SimplexId>& crumbs)
+std::vector<repair::Change> ChangesOf(const Fragment& loose, const Triangulation<3>& mesh,
+  const SimplexLabels& labels, const std::vector<SimplexId>& looseFragments)
 {
   std::map<LabelId, double> areas;
-  for (const SimplexId s : crumb)
+  for (const SimplexId s : loose)
   {
     for (unsigned i = 0; i < 4; ++i)
     {
       const SimplexId n = mesh.GetSimplex(s).N[i];
-      if (n == None || !std::binary_search(crumbs.begin(), crumbs.end(), n))
+      if (n == None || !std::binary_search(looseFragments.begin(), looseFragments.end(), n))
       {
         areas[n == None ? LabelId{ 0 } : labels[n]] +=
           AreaOf(mesh, repair::FacetOf<3>(mesh.GetSimplex(s).V, i));
@@ -196,70 +200,71 @@ std::vector<repair::Change> ChangesOf(const Fragment& crumb, const Triangulation
   std::vector<repair::Change> changes;
   for (const auto& [label, area] : sorted)
   {
-    changes.push_back({ crumb, label });
+    changes.push_back({ loose, label });
   }
   return changes;
 }
 
-/** The crumbs, in the order of their first simplices. */
-std::vector<Fragment> FindCrumbs(const CrumbFinder& finder, const std::vector<SimplexId>& small,
-  unsigned threads, const std::stop_token& stop)
+/** The loose fragments, in the order of their first simplices. */
+std::vector<Fragment> FindLooseFragments(const LooseFragmentFinder& finder,
+  const std::vector<SimplexId>& small, unsigned threads, const std::stop_token& stop)
 {
   constexpr std::size_t Grain = 64;
-  std::vector<Fragment> crumbs = ParallelCollect<Fragment>(
+  std::vector<Fragment> looseFragments = ParallelCollect<Fragment>(
     small.size(), Grain, threads,
     [&](std::size_t first, std::size_t end, std::vector<Fragment>& found)
     {
       for (std::size_t k = first; k < end; ++k)
       {
-        if (std::optional<Fragment> crumb = finder.CrumbOf(small[k]))
+        if (std::optional<Fragment> loose = finder.FindLooseFragment(small[k]))
         {
-          found.push_back(std::move(*crumb));
+          found.push_back(std::move(*loose));
         }
       }
     },
     stop);
-  std::sort(crumbs.begin(), crumbs.end());
-  return crumbs;
+  std::sort(looseFragments.begin(), looseFragments.end());
+  return looseFragments;
 }
 
 //------------------------------------------------------------------------------------------------
-/** Finds changes for crumbs. Each thread needs its own. */
-class CrumbRepair
+/** Finds changes for loose fragments. Each thread needs its own. */
+class LooseFragmentRepair
 {
 public:
   /**
    * All must outlive this object.
    * @param labels by simplex id; they may change between calls
    * @param before the labels before any change
-   * @param simplices of all crumbs, ascending
+   * @param simplices of all loose fragments, ascending
    */
-  CrumbRepair(const Triangulation<3>& triangulation, const SimplexLabels& labels,
+  LooseFragmentRepair(const Triangulation<3>& triangulation, const SimplexLabels& labels,
     const SimplexLabels& before, const ManifoldRepairOptions<3>& options,
     const std::vector<SimplexId>& simplices)
     : Mesh(triangulation)
     , Labels(labels)
-    , OfCrumbs(simplices)
+    , OfLooseFragments(simplices)
     , Finder(triangulation, labels)
     , Near(triangulation, labels, before)
     , Rules(this->Near, labels, options)
   {
   }
 
-  CrumbRepair(const CrumbRepair&) = delete; // Rules refer to Near
-  CrumbRepair& operator=(const CrumbRepair&) = delete;
+  LooseFragmentRepair(const LooseFragmentRepair&) = delete; // Rules refer to Near
+  LooseFragmentRepair& operator=(const LooseFragmentRepair&) = delete;
 
   /**
-   * The best change of a crumb. None if its neighbours' new labels have made it another fragment.
+   * The best change of a loose fragment. None if its neighbours' new labels have made it another
+   * fragment.
    */
-  repair::Proposal Propose(const Fragment& crumb) const
+  repair::Proposal Propose(const Fragment& loose) const
   {
     this->Near.ForgetSeen();
     repair::Proposal proposal;
-    if (this->Finder.IsCrumb(crumb, this->Near, proposal.Seen))
+    if (this->Finder.IsLoose(loose, this->Near, proposal.Seen))
     {
       std::vector<repair::Change> changes =
-        ChangesOf(crumb, this->Mesh, this->Labels, this->OfCrumbs);
+        ChangesOf(loose, this->Mesh, this->Labels, this->OfLooseFragments);
       const auto best = std::find_if(changes.begin(), changes.end(),
         [this](const repair::Change& change)
         { return !this->Rules.Dents(change) && this->Rules.IsAllowed(change); });
@@ -270,7 +275,7 @@ public:
     }
     const std::vector<VertexId>& seen = this->Near.Seen();
     proposal.Seen.insert(proposal.Seen.end(), seen.begin(), seen.end());
-    for (const SimplexId s : crumb)
+    for (const SimplexId s : loose)
     {
       const auto& v = this->Mesh.GetSimplex(s).V;
       proposal.Seen.insert(proposal.Seen.end(), v.begin(), v.end());
@@ -281,8 +286,8 @@ public:
 private:
   const Triangulation<3>& Mesh;
   const SimplexLabels& Labels;
-  const std::vector<SimplexId>& OfCrumbs;
-  const CrumbFinder Finder;
+  const std::vector<SimplexId>& OfLooseFragments;
+  const LooseFragmentFinder Finder;
   const repair::Neighbourhood<3> Near;
   const repair::ChangeRules<3> Rules;
 };
@@ -293,7 +298,7 @@ private:
 std::vector<SimplexId> FindSmallFragments(const Triangulation<3>& triangulation,
   const SimplexLabels& labels, unsigned threads, const std::stop_token& stop)
 {
-  const CrumbFinder finder(triangulation, labels);
+  const LooseFragmentFinder finder(triangulation, labels);
   constexpr std::size_t Grain = 8192;
   return ParallelCollect<SimplexId>(
     labels.size(), Grain, threads,
@@ -314,7 +319,7 @@ std::vector<SimplexId> FindSmallFragmentsAt(const Triangulation<3>& triangulatio
   const SimplexLabels& labels, const std::vector<SimplexId>& changed, unsigned threads,
   const std::stop_token& stop)
 {
-  const CrumbFinder finder(triangulation, labels);
+  const LooseFragmentFinder finder(triangulation, labels);
   constexpr std::size_t Grain = 256;
   std::vector<SimplexId> small = ParallelCollect<SimplexId>(
     changed.size(), Grain, threads,
@@ -324,7 +329,7 @@ std::vector<SimplexId> FindSmallFragmentsAt(const Triangulation<3>& triangulatio
       {
         if (labels[s] != 0)
         {
-          const Some some = finder.SomeOf(s);
+          const FewSimplices some = finder.FragmentAt(s);
           std::copy_if(some.begin(), some.end(), std::back_inserter(found),
             [&](SimplexId t) { return finder.IsSmall(t); });
         }
@@ -348,26 +353,28 @@ std::vector<SimplexId> FindSmallFragmentsAt(const Triangulation<3>& triangulatio
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<SimplexId> RelabelCrumbs(const Triangulation<3>& triangulation, SimplexLabels& labels,
-  const std::vector<SimplexId>& small, const ManifoldRepairOptions<3>& options, unsigned threads,
-  const std::stop_token& stop)
+std::vector<SimplexId> RelabelLooseFragments(const Triangulation<3>& triangulation,
+  SimplexLabels& labels, const std::vector<SimplexId>& small,
+  const ManifoldRepairOptions<3>& options, unsigned threads, const std::stop_token& stop)
 {
-  const std::vector<Fragment> crumbs =
-    FindCrumbs(CrumbFinder(triangulation, labels), small, threads, stop);
-  if (crumbs.empty())
+  const std::vector<Fragment> looseFragments =
+    FindLooseFragments(LooseFragmentFinder(triangulation, labels), small, threads, stop);
+  if (looseFragments.empty())
   {
     return {};
   }
-  std::vector<SimplexId> simplices; // of all crumbs, ascending
-  for (const Fragment& crumb : crumbs)
+  std::vector<SimplexId> simplices; // of all loose fragments, ascending
+  for (const Fragment& loose : looseFragments)
   {
-    simplices.insert(simplices.end(), crumb.begin(), crumb.end());
+    simplices.insert(simplices.end(), loose.begin(), loose.end());
   }
   std::sort(simplices.begin(), simplices.end());
   const SimplexLabels before = labels;
-  repair::OrderedChanges<3> changes(triangulation, labels, crumbs.size(), threads, stop);
-  changes.Pass([&] { return CrumbRepair(triangulation, labels, before, options, simplices); },
-    [&](const CrumbRepair& finder, std::size_t k) { return finder.Propose(crumbs[k]); });
+  repair::OrderedChanges<3> changes(triangulation, labels, looseFragments.size(), threads, stop);
+  changes.Pass([&]
+    { return LooseFragmentRepair(triangulation, labels, before, options, simplices); },
+    [&](const LooseFragmentRepair& finder, std::size_t k)
+    { return finder.Propose(looseFragments[k]); });
   return changes.TakeChanged();
 }
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @file EdgeSpindles.h
+ * @file OpenRidges.h
  * @brief Makes boundaries of labels manifold at edges (4D: triangles) where giving whole simplices to
  * another label does not help.
  */
-#ifndef voxplex_EdgeSpindles_h
-#define voxplex_EdgeSpindles_h
+#ifndef voxplex_OpenRidges_h
+#define voxplex_OpenRidges_h
 
 #include "Delaunay/Triangulation.h"
 #include "Domain/Domain.h"
@@ -22,17 +22,17 @@
 namespace voxplex
 {
 
-/** The result of MakeSpindles(). */
+/** The result of OpenRidges(). */
 template <int D>
-struct SpindleResult
+struct OpenedRidges
 {
   Subdivision<D> Parts;
   std::vector<InterfaceRidge<D>> Left; ///< only where simplices are flat within rounding
 };
 
-/** What MakeSpindles() looks at in addition. All is optional. */
+/** What OpenRidges() looks at in addition. All is optional. */
 template <int D>
-struct SpindleContext
+struct OpeningContext
 {
   std::span<const Point<D>> Positions; ///< of each vertex id; empty: those of the triangulation
   /** 4D: pieces with a circumradius above its element sizes count as bad shapes. Null: no bound. */
@@ -88,16 +88,16 @@ struct SpindleContext
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>
-SpindleResult<D> MakeSpindles(const Triangulation<D>& triangulation, const Domain<D>& domain,
+OpenedRidges<D> OpenRidges(const Triangulation<D>& triangulation, const Domain<D>& domain,
   std::span<const LabelId> labels, const std::vector<InterfaceRidge<D>>& ridges,
-  const std::stop_token& stop = {}, const SpindleContext<D>& context = {});
+  const std::stop_token& stop = {}, const OpeningContext<D>& context = {});
 
-extern template SpindleResult<3> MakeSpindles<3>(const Triangulation<3>&, const Domain<3>&,
+extern template OpenedRidges<3> OpenRidges<3>(const Triangulation<3>&, const Domain<3>&,
   std::span<const LabelId>, const std::vector<InterfaceRidge<3>>&, const std::stop_token&,
-  const SpindleContext<3>&);
-extern template SpindleResult<4> MakeSpindles<4>(const Triangulation<4>&, const Domain<4>&,
+  const OpeningContext<3>&);
+extern template OpenedRidges<4> OpenRidges<4>(const Triangulation<4>&, const Domain<4>&,
   std::span<const LabelId>, const std::vector<InterfaceRidge<4>>&, const std::stop_token&,
-  const SpindleContext<4>&);
+  const OpeningContext<4>&);
 
 } // namespace voxplex
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Edges that are not manifold are opened by cutting tetrahedra around them in pieces; none is left, on any labels.
 #include "Base/Error.h"
-#include "Conformity/EdgeSpindles.h"
+#include "Conformity/OpenRidges.h"
 #include "Domain/ImageDomain.h"
 #include "Geometry/SimplexQuality.h"
 #include "InterfaceChecks.h"
@@ -63,7 +63,7 @@ struct Opened
   {
     ExtractMesh<3>(triangulation, domain, labels, this->Before, threads);
     this->Edges = BadEdgesOf(triangulation, this->Before);
-    this->Result = MakeSpindles<3>(triangulation, domain, labels, this->Edges);
+    this->Result = OpenRidges<3>(triangulation, domain, labels, this->Edges);
     ExtractMesh<3>(
       triangulation, domain, labels, this->After, threads, {}, { {}, this->Result.Parts });
   }
@@ -87,7 +87,7 @@ struct Opened
   }
 
   std::vector<InterfaceEdge> Edges;
-  SpindleResult<3> Result;
+  OpenedRidges<3> Result;
   SimplexMesh<3> Before;
   SimplexMesh<3> After;
 };
@@ -135,7 +135,7 @@ LabelImage<3> Noise(unsigned seed, std::int64_t side, unsigned labels)
 } // namespace
 
 // Every sequence of up to three labels and background around an edge of four to seven tetrahedra.
-TEST(EdgeSpindles, OpenEdgesWithAnyLabelsAround)
+TEST(OpenRidges, OpenEdgesWithAnyLabelsAround)
 {
   std::size_t bad = 0;
   for (std::size_t n = 4; n < 8; ++n)
@@ -165,7 +165,7 @@ TEST(EdgeSpindles, OpenEdgesWithAnyLabelsAround)
 }
 
 // One tetrahedron between two that get part of it: a point within is enough, and its neighbours stay whole.
-TEST(EdgeSpindles, SplitATetrahedronFromWithin)
+TEST(OpenRidges, SplitATetrahedronFromWithin)
 {
   const Triangulated ring(Ring({ 1, 2, 1, 3 }));
   const Opened opened(*ring.Source, PlainLabels(), ring.Labels);
@@ -176,7 +176,7 @@ TEST(EdgeSpindles, SplitATetrahedronFromWithin)
 }
 
 // Narrow tetrahedra would have to be cut to slivers; the wide ones between them need not be.
-TEST(EdgeSpindles, TakeTheBestShapes)
+TEST(OpenRidges, TakeTheBestShapes)
 {
   RingShape shape;
   shape.Degrees = { 20.0, 150.0, 40.0, 150.0 };
@@ -198,7 +198,7 @@ TEST(EdgeSpindles, TakeTheBestShapes)
 }
 
 // Nearly every edge is bad, and the pieces that one leaves are cut for the next.
-TEST(EdgeSpindles, OpenAllEdgesAtOnce)
+TEST(OpenRidges, OpenAllEdgesAtOnce)
 {
   const ShuffledBall shuffled;
   for (unsigned seed = 1; seed <= 6; ++seed)
@@ -213,7 +213,7 @@ TEST(EdgeSpindles, OpenAllEdgesAtOnce)
 }
 
 // No tetrahedron is lost with its label: all keep pieces, which lie within.
-TEST(EdgeSpindles, LeaveSomethingOfEachTetrahedron)
+TEST(OpenRidges, LeaveSomethingOfEachTetrahedron)
 {
   const ShuffledBall shuffled;
   const Triangulation<3>& mesh = shuffled.Context->Mesh;
@@ -255,7 +255,7 @@ TEST(EdgeSpindles, LeaveSomethingOfEachTetrahedron)
 }
 
 // The ring lies on a lower face of the image and in front of it, with background beyond.
-TEST(EdgeSpindles, LeaveNoDentsWhereTheImageCuts)
+TEST(OpenRidges, LeaveNoDentsWhereTheImageCuts)
 {
   const LabelImage<3> image = phantoms::CutCells(5, 200, 3, 1);
   const ImageDomain<3> domain(image, 1.0);
@@ -375,14 +375,14 @@ TEST(Subdivision, LeavesAGoodMeshAlone)
     opened.After.Simplices.begin(), opened.After.Simplices.end()));
 }
 
-TEST(EdgeSpindles, StopOnRequest)
+TEST(OpenRidges, StopOnRequest)
 {
   const Triangulated ring(Ring({ 1, 2, 1, 2 }));
   std::stop_source stop;
   stop.request_stop();
   const std::vector<InterfaceEdge> edges = BadEdgesOf(*ring.Source, ring.Extract());
   EXPECT_THROW(
-    MakeSpindles<3>(*ring.Source, PlainLabels(), ring.Labels, edges, stop.get_token()), Cancelled);
+    OpenRidges<3>(*ring.Source, PlainLabels(), ring.Labels, edges, stop.get_token()), Cancelled);
 }
 
 //------------------------------------------------------------------------------------------------

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Conformity/EdgeSpindles.h"
+#include "Conformity/OpenRidges.h"
 
 #include "Conformity/PieceShapes.h"
 #include "Delaunay/VertexStar.h"
@@ -22,7 +22,7 @@ namespace voxplex
 namespace
 {
 
-using namespace spindles;
+using namespace opening;
 
 /**
  * Distances of new vertices from the centroid of the ridge, as fractions of the distance to the
@@ -85,11 +85,11 @@ bool HasOneRunOfEach(std::span<const LabelId> labels)
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-class SpindleMaker
+class RidgeOpener
 {
 public:
-  SpindleMaker(const Triangulation<D>& triangulation, const Domain<D>& domain,
-    std::span<const LabelId> labels, const SpindleContext<D>& context)
+  RidgeOpener(const Triangulation<D>& triangulation, const Domain<D>& domain,
+    std::span<const LabelId> labels, const OpeningContext<D>& context)
     : Source(triangulation)
     , Image(domain)
     , Labels(labels)
@@ -590,7 +590,7 @@ private:
   const Triangulation<D>& Source;
   const Domain<D>& Image;
   const std::span<const LabelId> Labels;
-  const SpindleContext<D> Context;
+  const OpeningContext<D> Context;
   Subdivision<D> Parts; ///< has its points now; the rest is set at the end
   std::map<SimplexId, std::vector<Piece<D>>> Pieces; ///< of simplices that were cut
 };
@@ -599,12 +599,12 @@ private:
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-SpindleResult<D> MakeSpindles(const Triangulation<D>& triangulation, const Domain<D>& domain,
+OpenedRidges<D> OpenRidges(const Triangulation<D>& triangulation, const Domain<D>& domain,
   std::span<const LabelId> labels, const std::vector<InterfaceRidge<D>>& ridges,
-  const std::stop_token& stop, const SpindleContext<D>& context)
+  const std::stop_token& stop, const OpeningContext<D>& context)
 {
-  SpindleResult<D> result;
-  SpindleMaker<D> maker(triangulation, domain, labels, context);
+  OpenedRidges<D> result;
+  RidgeOpener<D> maker(triangulation, domain, labels, context);
   for (const InterfaceRidge<D>& ridge : ridges)
   {
     ThrowIfStopped(stop);
@@ -617,11 +617,11 @@ SpindleResult<D> MakeSpindles(const Triangulation<D>& triangulation, const Domai
   return result;
 }
 
-template SpindleResult<3> MakeSpindles<3>(const Triangulation<3>&, const Domain<3>&,
+template OpenedRidges<3> OpenRidges<3>(const Triangulation<3>&, const Domain<3>&,
   std::span<const LabelId>, const std::vector<InterfaceRidge<3>>&, const std::stop_token&,
-  const SpindleContext<3>&);
-template SpindleResult<4> MakeSpindles<4>(const Triangulation<4>&, const Domain<4>&,
+  const OpeningContext<3>&);
+template OpenedRidges<4> OpenRidges<4>(const Triangulation<4>&, const Domain<4>&,
   std::span<const LabelId>, const std::vector<InterfaceRidge<4>>&, const std::stop_token&,
-  const SpindleContext<4>&);
+  const OpeningContext<4>&);
 
 } // namespace voxplex
