@@ -3,6 +3,7 @@
 #include "Parallel/ParallelFor.h"
 
 #include "Parallel/ChunkShares.h"
+#include "Parallel/ThreadTeam.h"
 
 #include <gtest/gtest.h>
 
