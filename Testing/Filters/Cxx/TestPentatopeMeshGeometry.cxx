@@ -261,7 +261,7 @@ void TestSizeFunctionArguments()
   };
   const auto filter = MakePentatopeFilter(MakeSeries(placement, times, label));
   filter->SetTimeScale(2.0);
-  filter->SetDelta(1.5);
+  filter->SetDelta(1.6);
   std::atomic<int> calls{ 0 };
   std::atomic<int> wrong{ 0 };
   filter->SetSizeFunction(
@@ -270,8 +270,7 @@ void TestSizeFunctionArguments()
       ++calls;
       const double space = std::hypot(x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]);
       const double distance = std::hypot(space, 2.0 * (x[3] - centre[3]));
-      // Repair asks for an element near the interface, within delta, with the label beyond.
-      const bool nearMiddle = std::abs(x[0] - centre[0]) < 1.5;
+      const bool nearMiddle = std::abs(x[0] - centre[0]) < 1.0;
       const bool good = distance < 5.5 && (nearMiddle || value == (x[0] < centre[0] ? 3 : 7));
       wrong += good ? 0 : 1;
       return 2.0;
