@@ -440,6 +440,25 @@ TEST(Flips, KeepTheLastTetrahedronOfALabel)
   }
 }
 
+TEST(Flips, DropNothingThatIsNotFlat)
+{
+  for (const double height : { 0.12, 0.8 })
+  {
+    // A poor tetrahedron abcd lies on two others, acde and bcde. The high one cannot be flipped at cd.
+    const SimplexMesh<3> mesh =
+      MeshOf({ { 1, 0, height }, { -1, 0, height }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 3, -1 } },
+        { { 0, 1, 2, 3 }, { 0, 3, 2, 4 }, { 1, 2, 3, 4 } }, { 2, 2, 2 });
+    TetrahedralComplex complex(mesh, ShapeScore(15.0, 100.0, 2.5), 1, {});
+    EXPECT_LT(complex.Scores[0], 1.0);
+    const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
+    Patch patch(complex, blocks, 0);
+    Flips flips(patch, InterfaceRules(30.0, 20.0, 30.0));
+    flips.Improve(0);
+    EXPECT_EQ(flips.Counts().Dropped, height < 0.5 ? 1u : 0u);
+    EXPECT_EQ(flips.Counts().InterfaceFlips, flips.Counts().Dropped);
+  }
+}
+
 TEST(Flips, LeaveJunctionsAlone)
 {
   // Three labels meet at the edge that a flip would remove.
