@@ -17,7 +17,9 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkVersion.h>
 
 #include <algorithm>
 #include <array>
@@ -99,13 +101,23 @@ void RequireVertices(vtkCellArray* cells, vtkPointSet* owner)
     "it has cells with vertices that are none of its points");
 }
 
+/** The type of each cell. */
+vtkDataArray* TypesOf(vtkUnstructuredGrid* grid)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+  return grid->GetCellTypes();
+#else
+  return grid->GetCellTypesArray();
+#endif
+}
+
 void RequireCells(vtkUnstructuredGrid* grid, int type, vtkIdType size, const std::string& what)
 {
   if (grid->GetNumberOfCells() == 0)
   {
     return;
   }
-  RefuseIf(grid->GetCellTypesArray()->GetNumberOfValues() != grid->GetNumberOfCells(),
+  RefuseIf(TypesOf(grid)->GetNumberOfTuples() != grid->GetNumberOfCells(),
     "it has not as many types as cells");
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
   {

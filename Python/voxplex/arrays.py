@@ -110,10 +110,10 @@ def _point_array(mesh: vtkPointSet, name: str) -> NDArray[Any]:
 def _cells(mesh: vtkUnstructuredGrid, cell_type: int, size: int, what: str) -> NDArray[numpy.int64]:
     if mesh.GetNumberOfCells() == 0:
         return numpy.empty((0, size), dtype=numpy.int64)
-    types = vtk_to_numpy(mesh.GetCellTypesArray())
-    others = int(numpy.count_nonzero(types != cell_type))
-    if others:
-        raise ValueError(f"{others} of {types.size} cells are no {what}")
+    if not mesh.IsHomogeneous() or mesh.GetCellType(0) != cell_type:
+        count = mesh.GetNumberOfCells()
+        others = sum(mesh.GetCellType(cell) != cell_type for cell in range(count))
+        raise ValueError(f"{others} of {count} cells are no {what}")
     return _connectivity(mesh.GetCells(), size, what)
 
 

@@ -173,8 +173,7 @@ def _points_of_space_time(grid):
 
 
 def _require_type(grid, kind):
-    types = vtk_to_numpy(grid.GetCellTypesArray()) if grid.GetNumberOfCells() else np.array([kind])
-    if not (types == kind).all():
+    if any(grid.GetCellType(cell) != kind for cell in range(grid.GetNumberOfCells())):
         raise AssertionError("cells that are not of type %d" % kind)
 
 
@@ -379,9 +378,7 @@ def _read_mfem(path):
 
 
 def _from_grid(grid):
-    types = vtk_to_numpy(grid.GetCellTypesArray())
-    if not (types == 10).all():
-        raise AssertionError("cells that are not tetrahedra")
+    _require_type(grid, 10)
     cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
     labels = vtk_to_numpy(grid.GetCellData().GetArray("Label"))
     return Tetrahedra(_points(grid), cells, labels, _space(grid))
