@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OMEMetadata.h"
 
+#include "Expat.h"
 #include "FileError.h"
 #include "Text.h"
-
-#include <vtk_expat.h>
 
 #include <memory>
 #include <string_view>
@@ -145,7 +144,7 @@ OMEMetadata ParseOMEMetadata(const std::string& description)
         ? "its OME metadata have a document type, which OME does not use"
         : "its OME metadata are damaged: " +
           Excerpt(XML_ErrorString(XML_GetErrorCode(parser.get()))) + " in line " +
-          std::to_string(XML_GetCurrentLineNumber(parser.get())));
+          std::to_string(LineOf(parser.get())));
   }
   return parsing.Metadata;
 }

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VTKFileStructure.h"
 
+#include "Expat.h"
 #include "Fields.h"
 #include "FileError.h"
 #include "ScalarImage.h"
 #include "Text.h"
 
 #include <vtkBase64Utilities.h>
-#include <vtk_expat.h>
 
 #include <algorithm>
 #include <array>
@@ -255,7 +255,7 @@ void StartElement(void* data, const char* elementName, const char** attributes)
   {
     structure.IsAppended = true;
     structure.IsBase64 = Attribute(attributes, "encoding") == "base64";
-    structure.AppendedTag = static_cast<std::uint64_t>(XML_GetCurrentByteIndex(structure.Parser));
+    structure.AppendedTag = OffsetOf(structure.Parser);
     XML_StopParser(structure.Parser, XML_FALSE); // what follows may be no XML
   }
 }
@@ -342,7 +342,7 @@ Structure Parse(const InputFile& file)
       RefuseIf(structure.HasDocumentType,
         "it has a document type, which VTK's files have not: take that line out");
       Refuse(Damaged, XML_ErrorString(XML_GetErrorCode(parser.get())), " in line ",
-        XML_GetCurrentLineNumber(parser.get()));
+        LineOf(parser.get()));
     }
   }
   return structure;
