@@ -10,7 +10,7 @@
 #include "Conformity/ManifoldLabels.h"
 #include "Mesh/SimplexMesh.h"
 #include "Mesher/RefinementStage.h"
-#include "Optimisation/PentatopeComplex.h"
+#include "Optimisation/Surroundings.h"
 
 #include <type_traits>
 #include <variant>
@@ -24,7 +24,7 @@ struct ExtractedMesh
 {
   SimplexMesh<D> Mesh;
   /** 4D: the pentatopes around it, if it is to be optimised. */
-  std::conditional_t<D == 4, Surroundings, std::monostate> Outside;
+  std::conditional_t<D == 4, Surroundings<4>, std::monostate> Outside;
 };
 
 /**

@@ -75,7 +75,7 @@ void Flips::ConsiderEdge(std::uint32_t t, unsigned i, unsigned j)
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
   EdgeRing& ring = this->Ring;
-  if (!this->Target.GatherRing(t, i, j, LongestRing, ring))
+  if (!GatherRing(this->Target, t, i, j, LongestRing, ring))
   {
     return;
   }
@@ -285,8 +285,8 @@ bool Flips::MayBeEdge(std::uint32_t a, std::uint32_t b)
 bool Flips::IsInterfaceEdge(std::uint32_t t, std::uint32_t a, std::uint32_t b)
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
-  if (!this->Target.GatherRing(
-        t, mesh.IndexOf(t, a), mesh.IndexOf(t, b), 4 * LongestRing, this->OtherRing) ||
+  if (!GatherRing(this->Target, t, mesh.IndexOf(t, a), mesh.IndexOf(t, b), 4 * LongestRing,
+        this->OtherRing) ||
     !this->OtherRing.Closed)
   {
     return true;

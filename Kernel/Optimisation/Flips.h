@@ -54,7 +54,7 @@ struct FlipStatistics
 class Flips
 {
 public:
-  Flips(Patch& patch, const InterfaceRules& rules)
+  Flips(Patch<3>& patch, const InterfaceRules& rules)
     : Target(patch)
     , Rules(rules)
   {
@@ -74,7 +74,7 @@ private:
     double Score = 0.0; ///< the smallest score afterwards, up to 1
     double Gain = 0.0;  ///< the gain in the smallest score, up to 1
     std::vector<std::uint32_t> Old;
-    std::vector<NewTetrahedron> Fresh;
+    std::vector<NewCell<3>> Fresh;
     bool OnInterface = false;
   };
 
@@ -92,12 +92,12 @@ private:
   void Emit(std::span<const std::uint32_t> chain, TetrahedralComplex::Label label, std::size_t i,
     std::size_t j);
 
-  Patch& Target;
+  Patch<3>& Target;
   const InterfaceRules Rules;
   FlipStatistics Done;
   EdgeRing Ring;
   EdgeRing OtherRing;
-  VertexStar Star;
+  VertexStar<3> Star;
   Plan Best;
   Plan Current;
   std::array<std::array<double, LongestRing + 1>, LongestRing + 1> Table;

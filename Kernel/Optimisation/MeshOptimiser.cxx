@@ -4,10 +4,10 @@
 
 #include "Base/Error.h"
 #include "Base/UninitialisedVector.h"
+#include "Optimisation/Complex.h"
 #include "Optimisation/InterfaceRules.h"
 #include "Optimisation/PatchWorker.h"
 #include "Optimisation/Rooms.h"
-#include "Optimisation/TetrahedralComplex.h"
 #include "Optimisation/VertexBoxes.h"
 #include "Parallel/ParallelFor.h"
 
@@ -235,8 +235,7 @@ private:
     // A block may have improved a tetrahedron between blocks, or its slot may hold another one now.
     std::sort(this->Poor.begin(), this->Poor.end());
     this->Poor.erase(std::unique(this->Poor.begin(), this->Poor.end()), this->Poor.end());
-    std::erase_if(this->Poor,
-      [this](std::uint32_t t) { return !this->Mesh.IsAlive(t) || this->Mesh.Scores[t] >= 1.0f; });
+    std::erase_if(this->Poor, [this](std::uint32_t t) { return !this->Mesh.IsPoor(t); });
   }
 
   /** Gives each block vertices for its poor tetrahedra. Returns the first of each, and the end. */
@@ -270,10 +269,9 @@ private:
     const std::size_t points = this->Mesh.Points.size();
     const std::size_t spare = SparePerPoor * this->Poor.size();
     this->Mesh.AddVertices(spare);
-    const Blocks blocks(points + spare, 0);
-    PatchWorker worker(this->Mesh, blocks, 0, this->Image, this->Rules,
-      this->Options.InterfaceTolerance, this->Limits);
-    Patch& patch = worker.GetPatch();
+    PatchWorker worker(
+      this->Mesh, {}, 0, this->Image, this->Rules, this->Options.InterfaceTolerance, this->Limits);
+    Patch<3>& patch = worker.GetPatch();
     patch.Clock = this->LastClock;
     patch.SetSlots(std::move(this->Slots));
     patch.SetSpareVertices(
@@ -297,9 +295,8 @@ private:
   /** Most of the poor tetrahedra go, so that few vertices need room afterwards. */
   void WorkWithoutInsertions()
   {
-    const Blocks blocks(this->Mesh.Points.size(), 0);
-    PatchWorker worker(this->Mesh, blocks, 0, this->Image, this->Rules,
-      this->Options.InterfaceTolerance, this->Limits);
+    PatchWorker worker(
+      this->Mesh, {}, 0, this->Image, this->Rules, this->Options.InterfaceTolerance, this->Limits);
     worker.GetPatch().Clock = this->LastClock;
     worker.GetPatch().SetSlots(std::move(this->Slots));
     worker.WorkOn(this->Poor);
@@ -339,7 +336,7 @@ private:
    */
   void MakeRoom(PatchWorker& worker, double tighter)
   {
-    Patch& patch = worker.GetPatch();
+    Patch<3>& patch = worker.GetPatch();
     Rooms rooms = RoomsAround(this->Mesh, worker.Left(), EdgesOfRoom);
     const ShapeScore usual = this->Mesh.Shape;
     this->Mesh.Shape = ShapeScore(
@@ -576,8 +573,7 @@ OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domai
     complex.FindBorderFaces(domain);
     if (options.Guard)
     {
-      complex.Guard = options.Guard;
-      complex.AreHolders = options.Guard->FindHolders(mesh, threads, stop);
+      complex.Protect(*options.Guard, mesh, threads, stop);
     }
     Optimisation(complex, domain, options, threads, limits, statistics).Run();
     ThrowIfStopped(stop);

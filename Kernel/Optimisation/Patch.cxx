@@ -5,6 +5,7 @@
 #include "Parallel/ParallelCollect.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace voxplex
 {
@@ -12,19 +13,33 @@ namespace voxplex
 namespace
 {
 
-using Vertices = TetrahedralComplex::Vertices;
-
-std::array<std::uint32_t, 3> SortedFacet(const Vertices& v, unsigned i)
+/** The index of the vertex of v that is not in facet i of w. */
+template <std::size_t N>
+unsigned IndexBeyond(
+  const std::array<std::uint32_t, N>& v, const std::array<std::uint32_t, N>& w, unsigned i)
 {
-  std::array<std::uint32_t, 3> f = { v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3] };
-  std::sort(f.begin(), f.end());
-  return f;
+  const auto isInFacet = [&](std::uint32_t x)
+  {
+    bool isThere = false;
+    for (unsigned k = 0; k < N; ++k)
+    {
+      isThere = isThere || (k != i && w[k] == x);
+    }
+    return isThere;
+  };
+  unsigned k = 0;
+  while (isInFacet(v[k]))
+  {
+    ++k;
+  }
+  return k;
 }
 
 /** The vertices of a tetrahedron, starting with vertices i and j, positively oriented. */
-Vertices StartingAtEdge(const Vertices& v, unsigned i, unsigned j)
+TetrahedralComplex::Vertices StartingAtEdge(
+  const TetrahedralComplex::Vertices& v, unsigned i, unsigned j)
 {
-  Vertices w = StartingAt(v, i);
+  TetrahedralComplex::Vertices w = StartingAt(v, i);
   while (w[1] != v[j])
   {
     w = { w[0], w[2], w[3], w[1] };
@@ -33,7 +48,8 @@ Vertices StartingAtEdge(const Vertices& v, unsigned i, unsigned j)
 }
 
 /** The index of the vertex that is none of a, b and c. */
-unsigned IndexOfOther(const Vertices& v, std::uint32_t a, std::uint32_t b, std::uint32_t c)
+unsigned IndexOfOther(
+  const TetrahedralComplex::Vertices& v, std::uint32_t a, std::uint32_t b, std::uint32_t c)
 {
   unsigned i = 0;
   while (v[i] == a || v[i] == b || v[i] == c)
@@ -46,112 +62,32 @@ unsigned IndexOfOther(const Vertices& v, std::uint32_t a, std::uint32_t b, std::
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-bool Patch::GatherStar(std::uint32_t v, VertexStar& star)
+template <int D>
+bool Patch<D>::GatherStar(std::uint32_t v, VertexStar<D>& star) const
 {
-  star.Vertex = v;
-  star.Cells.clear();
-  star.Corners.clear();
-  star.Cells.push_back(this->Complex.Hosts[v]);
-  for (std::size_t k = 0; k < star.Cells.size(); ++k)
-  {
-    const auto& cell = this->Complex.Cells[star.Cells[k]];
-    if (!this->MayChange(star.Cells[k]))
-    {
-      return false;
-    }
-    const unsigned own = this->Complex.IndexOf(star.Cells[k], v);
-    star.Corners.push_back(StartingAt(cell.V, own));
-    for (unsigned i = 0; i < 4; ++i)
-    {
-      const std::uint32_t next = cell.N[i];
-      if (i != own && next != None &&
-        std::find(star.Cells.begin(), star.Cells.end(), next) == star.Cells.end())
-      {
-        star.Cells.push_back(next);
-      }
-    }
-  }
-  return star.Cells.size() == this->Complex.Degrees[v] || this->UseFoundStar(star);
+  return this->Target.GatherStar(v, star, [this](std::uint32_t t) { return this->MayChange(t); }) &&
+    (star.Cells.size() == this->Target.Degrees[v] || this->UseFoundStar(star));
 }
 
 //------------------------------------------------------------------------------------------------
-bool Patch::GatherRing(
-  std::uint32_t t, unsigned i, unsigned j, std::size_t most, EdgeRing& ring) const
-{
-  const Vertices start = StartingAtEdge(this->Complex.Cells[t].V, i, j);
-  const std::uint32_t a = start[0];
-  const std::uint32_t b = start[1];
-  ring.A = a;
-  ring.B = b;
-  ring.Closed = false;
-  ring.Link.assign({ start[2], start[3] });
-  ring.Cells.assign({ t });
-  if (!this->MayChange(t))
-  {
-    return false;
-  }
-  // Walk forwards until the start or the mesh's end, then backwards from the start.
-  for (std::uint32_t cell = t;;)
-  {
-    const std::uint32_t behind = ring.Link[ring.Link.size() - 2];
-    const std::uint32_t front = ring.Link.back();
-    const std::uint32_t next = this->Complex.Cells[cell].N[this->Complex.IndexOf(cell, behind)];
-    if (next == None)
-    {
-      break;
-    }
-    if (next == t)
-    {
-      ring.Closed = true;
-      ring.Link.pop_back();
-      return true;
-    }
-    const Vertices& v = this->Complex.Cells[next].V;
-    if (ring.Cells.size() == most || !this->MayChange(next))
-    {
-      return false;
-    }
-    ring.Cells.push_back(next);
-    ring.Link.push_back(v[IndexOfOther(v, a, b, front)]);
-    cell = next;
-  }
-  for (std::uint32_t cell = t;;)
-  {
-    const std::uint32_t behind = ring.Link[1];
-    const std::uint32_t front = ring.Link[0];
-    const std::uint32_t next = this->Complex.Cells[cell].N[this->Complex.IndexOf(cell, behind)];
-    if (next == None)
-    {
-      return true;
-    }
-    const Vertices& v = this->Complex.Cells[next].V;
-    if (ring.Cells.size() == most || !this->MayChange(next))
-    {
-      return false;
-    }
-    ring.Cells.insert(ring.Cells.begin(), next);
-    ring.Link.insert(ring.Link.begin(), v[IndexOfOther(v, a, b, front)]);
-    cell = next;
-  }
-}
-
-//------------------------------------------------------------------------------------------------
-void Patch::Touch(const Vertices& v)
+template <int D>
+void Patch<D>::Touch(const Vertices& v)
 {
   for (const std::uint32_t w : v)
   {
-    this->Complex.Changes[w] = this->Clock;
+    this->Target.Changes[w] = this->Clock;
   }
 }
 
-bool Patch::Replace(std::span<const std::uint32_t> old, std::span<const NewTetrahedron> fresh)
+template <int D>
+bool Patch<D>::Replace(std::span<const std::uint32_t> old, std::span<const NewCell<D>> fresh)
 {
   if (fresh.size() > old.size() + this->FreeSlots.size() || !this->FindNextHolders(old, fresh))
   {
     return false;
   }
   ++this->Clock;
-  auto& cells = this->Complex.Cells;
+  auto& cells = this->Target.Cells;
   const auto isOld = [old](std::uint32_t t)
   { return std::find(old.begin(), old.end(), t) != old.end(); };
 
@@ -161,20 +97,19 @@ bool Patch::Replace(std::span<const std::uint32_t> old, std::span<const NewTetra
   {
     const auto& cell = cells[t];
     this->Touch(cell.V);
-    for (unsigned i = 0; i < 4; ++i)
+    for (unsigned i = 0; i <= D; ++i)
     {
       const std::uint32_t outside = cell.N[i];
       if (outside != None && !isOld(outside))
       {
-        const unsigned back = IndexOfOther(
-          cells[outside].V, cell.V[(i + 1) & 3], cell.V[(i + 2) & 3], cell.V[(i + 3) & 3]);
+        const unsigned back = IndexBeyond(cells[outside].V, cell.V, i);
         cells[outside].N[back] = None;
-        this->Open.push_back({ SortedFacet(cell.V, i), outside, back });
+        this->Open.push_back({ Complex<D>::SortedFacet(cell.V, i), outside, back });
       }
     }
     for (const std::uint32_t v : cell.V)
     {
-      --this->Complex.Degrees[v];
+      --this->Target.Degrees[v];
     }
   }
   // Slots are last in, first out, so the slots of the hole are used first.
@@ -184,80 +119,64 @@ bool Patch::Replace(std::span<const std::uint32_t> old, std::span<const NewTetra
     this->FreeSlots.push_back(old[k]);
     if (!this->NextHolders.empty())
     {
-      this->Complex.AreHolders[old[k]] = 0;
+      this->Target.AreHolders[old[k]] = 0;
     }
   }
   // If a vertex of the hole loses its host, it gets another one beside the hole, if there is any.
-  for (const OpenFacet& open : this->Open)
+  for (const auto& open : this->Open)
   {
     for (const std::uint32_t v : open.V)
     {
-      this->Complex.Hosts[v] = open.Cell;
+      this->Target.Hosts[v] = open.Cell;
     }
   }
   for (std::size_t k = 0; k < fresh.size(); ++k)
   {
-    const NewTetrahedron& tetrahedron = fresh[k];
+    const NewCell<D>& cell = fresh[k];
     const std::uint32_t t = this->FreeSlots.back();
     this->FreeSlots.pop_back();
     if (!this->NextHolders.empty())
     {
-      this->Complex.AreHolders[t] = this->NextHolders[k];
+      this->Target.AreHolders[t] = this->NextHolders[k];
     }
-    cells[t] = { tetrahedron.V, { None, None, None, None } };
-    this->Complex.Labels[t] = tetrahedron.Label;
-    const auto score = static_cast<float>(this->Complex.Score(tetrahedron.V));
-    this->Complex.Scores[t] = score;
-    if (score < 1.0f)
+    cells[t].V = cell.V;
+    cells[t].N.fill(None);
+    this->Target.Labels[t] = cell.Label;
+    this->Target.Scores[t] =
+      static_cast<typename Complex<D>::ScoreValue>(this->Target.Score(cell.V));
+    if (this->Target.IsPoor(t))
     {
       this->Poor.push_back(t);
     }
-    this->Touch(tetrahedron.V);
-    for (unsigned i = 0; i < 4; ++i)
+    this->Touch(cell.V);
+    for (unsigned i = 0; i <= D; ++i)
     {
-      this->Complex.Hosts[tetrahedron.V[i]] = t;
-      ++this->Complex.Degrees[tetrahedron.V[i]];
-      const auto facet = SortedFacet(tetrahedron.V, i);
-      const auto match = std::find_if(this->Open.begin(), this->Open.end(),
-        [&facet](const OpenFacet& open) { return open.V == facet; });
-      if (match == this->Open.end())
-      {
-        this->Open.push_back({ facet, t, i });
-      }
-      else
-      {
-        cells[t].N[i] = match->Cell;
-        cells[match->Cell].N[match->Index] = t;
-        *match = this->Open.back();
-        this->Open.pop_back();
-      }
+      this->Target.Hosts[cell.V[i]] = t;
+      ++this->Target.Degrees[cell.V[i]];
+      this->Target.Join(t, i, this->Open);
     }
   }
   return true;
 }
 
-bool Patch::Move(const VertexStar& star, const Point<3>& to, std::span<const float> scores)
+template <int D>
+bool Patch<D>::Move(const VertexStar<D>& star, const Point<D>& to,
+  std::span<const typename Complex<D>::ScoreValue> scores)
 {
-  for (std::size_t k = 0; k < star.Cells.size(); ++k)
+  for (const std::uint32_t t : star.Cells)
   {
-    if (this->Complex.IsHolder(star.Cells[k]))
+    if (!this->Target.KeepsComponents(t, star.Vertex, to))
     {
-      ComponentGuard<3>::Corners after = this->CornersOf(star.Corners[k]);
-      after[0] = &to; // Corners have the vertex first
-      if (!this->Complex.Guard->Keeps(this->LabelInImage(this->Complex.Labels[star.Cells[k]]),
-            this->CornersOf(star.Corners[k]), after))
-      {
-        return false;
-      }
+      return false;
     }
   }
   ++this->Clock;
-  this->Complex.Points[star.Vertex] = to;
+  this->Target.Points[star.Vertex] = to;
   for (std::size_t k = 0; k < star.Cells.size(); ++k)
   {
     this->Touch(star.Corners[k]);
-    this->Complex.Scores[star.Cells[k]] = scores[k];
-    if (scores[k] < 1.0f)
+    this->Target.Scores[star.Cells[k]] = scores[k];
+    if (scores[k] < this->Target.Goal)
     {
       this->Poor.push_back(star.Cells[k]);
     }
@@ -266,50 +185,40 @@ bool Patch::Move(const VertexStar& star, const Point<3>& to, std::span<const flo
 }
 
 //------------------------------------------------------------------------------------------------
-ComponentGuard<3>::Corners Patch::CornersOf(const Vertices& v) const
-{
-  const auto& points = this->Complex.Points;
-  return { &points[v[0]], &points[v[1]], &points[v[2]], &points[v[3]] };
-}
-
-LabelId Patch::LabelInImage(TetrahedralComplex::Label label) const
-{
-  return this->Complex.Guard->LabelOf(this->Complex.LabelValues[label]);
-}
-
 /**
- * Finds the new tetrahedra that hold what old ones have held. NextHolders becomes empty if there are
+ * Finds the new cells that hold what old ones have held. NextHolders becomes empty if there are
  * no holders in the mesh. Returns false if a component would be lost.
  */
-bool Patch::FindNextHolders(
-  std::span<const std::uint32_t> old, std::span<const NewTetrahedron> fresh)
+template <int D>
+bool Patch<D>::FindNextHolders(
+  std::span<const std::uint32_t> old, std::span<const NewCell<D>> fresh)
 {
   this->NextHolders.clear();
-  if (this->Complex.AreHolders.empty())
+  if (this->Target.AreHolders.empty())
   {
     return true;
   }
   this->NextHolders.resize(std::max<std::size_t>(fresh.size(), 1));
   for (const std::uint32_t t : old)
   {
-    if (!this->Complex.IsHolder(t))
+    if (!this->Target.IsHolder(t))
     {
       continue;
     }
-    const TetrahedralComplex::Label label = this->Complex.Labels[t];
-    std::vector<ComponentGuard<3>::Corners> corners;
+    const auto label = this->Target.Labels[t];
+    std::vector<typename ComponentGuard<D>::Corners> corners;
     std::vector<std::size_t> places;
     for (std::size_t k = 0; k < fresh.size(); ++k)
     {
       if (fresh[k].Label == label)
       {
-        corners.push_back(this->CornersOf(fresh[k].V));
+        corners.push_back(this->Target.PointsOf(fresh[k].V));
         places.push_back(k);
       }
     }
     std::vector<std::uint8_t> areHolders(corners.size());
-    if (!this->Complex.Guard->Keeps(this->LabelInImage(label),
-          this->CornersOf(this->Complex.Cells[t].V), corners, areHolders))
+    if (!this->Target.Guard->Keeps(this->Target.LabelInImage(label),
+          this->Target.PointsOf(this->Target.Cells[t].V), corners, areHolders))
     {
       return false;
     }
@@ -322,7 +231,21 @@ bool Patch::FindNextHolders(
 }
 
 //------------------------------------------------------------------------------------------------
-void Patch::FindStars(
+template <int D>
+void Patch<D>::NeedSlots(std::size_t number)
+{
+  const auto old = static_cast<std::uint32_t>(this->Target.Cells.size());
+  if (this->FreeSlots.size() < number)
+  {
+    this->Target.AddCells(number);
+    this->FreeSlots.resize(this->FreeSlots.size() + number);
+    std::iota(this->FreeSlots.rbegin(),
+      this->FreeSlots.rbegin() + static_cast<std::ptrdiff_t>(number), old);
+  }
+}
+
+template <int D>
+void Patch<D>::FindStars(
   std::span<const std::uint32_t> vertices, unsigned threads, const std::stop_token& stop)
 {
   constexpr std::size_t Grain = 65536;
@@ -331,20 +254,20 @@ void Patch::FindStars(
   {
     return;
   }
-  std::vector<char> wanted(this->Complex.Points.size(), 0);
+  std::vector<char> wanted(this->Target.Points.size(), 0);
   for (const std::uint32_t v : vertices)
   {
     wanted[v] = 1;
   }
   const std::vector<std::uint32_t> cells = ParallelCollect<std::uint32_t>(
-    this->Complex.Cells.size(), Grain, threads,
+    this->Target.Cells.size(), Grain, threads,
     [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& found)
     {
       for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
       {
-        const Vertices& v = this->Complex.Cells[t].V;
-        if (this->Complex.IsAlive(t) &&
-          (wanted[v[0]] | wanted[v[1]] | wanted[v[2]] | wanted[v[3]]) != 0)
+        const Vertices& v = this->Target.Cells[t].V;
+        if (this->Target.IsAlive(t) &&
+          std::any_of(v.begin(), v.end(), [&](std::uint32_t w) { return wanted[w] != 0; }))
         {
           found.push_back(t);
         }
@@ -353,7 +276,7 @@ void Patch::FindStars(
     stop);
   for (const std::uint32_t t : cells)
   {
-    for (const std::uint32_t v : this->Complex.Cells[t].V)
+    for (const std::uint32_t v : this->Target.Cells[t].V)
     {
       if (wanted[v] != 0)
       {
@@ -366,10 +289,11 @@ void Patch::FindStars(
 /**
  * Replaces a partly gathered star by the found one. False if the star was not found or has changed.
  */
-bool Patch::UseFoundStar(VertexStar& star) const
+template <int D>
+bool Patch<D>::UseFoundStar(VertexStar<D>& star) const
 {
   const auto found = this->FoundStars.find(star.Vertex);
-  if (found == this->FoundStars.end() || found->second.size() != this->Complex.Degrees[star.Vertex])
+  if (found == this->FoundStars.end() || found->second.size() != this->Target.Degrees[star.Vertex])
   {
     return false;
   }
@@ -377,14 +301,79 @@ bool Patch::UseFoundStar(VertexStar& star) const
   star.Corners.clear();
   for (const std::uint32_t t : star.Cells)
   {
-    const Vertices& v = this->Complex.Cells[t].V;
-    if (!this->Complex.IsAlive(t) || std::find(v.begin(), v.end(), star.Vertex) == v.end())
+    const Vertices& v = this->Target.Cells[t].V;
+    if (!this->Target.IsAlive(t) || std::find(v.begin(), v.end(), star.Vertex) == v.end())
     {
       return false;
     }
-    star.Corners.push_back(StartingAt(v, this->Complex.IndexOf(t, star.Vertex)));
+    star.Corners.push_back(StartingAt(v, this->Target.IndexOf(t, star.Vertex)));
   }
   return true;
 }
+
+//------------------------------------------------------------------------------------------------
+bool GatherRing(
+  const Patch<3>& patch, std::uint32_t t, unsigned i, unsigned j, std::size_t most, EdgeRing& ring)
+{
+  const TetrahedralComplex& mesh = patch.Mesh();
+  const TetrahedralComplex::Vertices start = StartingAtEdge(mesh.Cells[t].V, i, j);
+  const std::uint32_t a = start[0];
+  const std::uint32_t b = start[1];
+  ring.A = a;
+  ring.B = b;
+  ring.Closed = false;
+  ring.Link.assign({ start[2], start[3] });
+  ring.Cells.assign({ t });
+  if (!patch.MayChange(t))
+  {
+    return false;
+  }
+  // Walk forwards until the start or the mesh's end, then backwards from the start.
+  for (std::uint32_t cell = t;;)
+  {
+    const std::uint32_t behind = ring.Link[ring.Link.size() - 2];
+    const std::uint32_t front = ring.Link.back();
+    const std::uint32_t next = mesh.Cells[cell].N[mesh.IndexOf(cell, behind)];
+    if (next == TetrahedralComplex::None)
+    {
+      break;
+    }
+    if (next == t)
+    {
+      ring.Closed = true;
+      ring.Link.pop_back();
+      return true;
+    }
+    const auto& v = mesh.Cells[next].V;
+    if (ring.Cells.size() == most || !patch.MayChange(next))
+    {
+      return false;
+    }
+    ring.Cells.push_back(next);
+    ring.Link.push_back(v[IndexOfOther(v, a, b, front)]);
+    cell = next;
+  }
+  for (std::uint32_t cell = t;;)
+  {
+    const std::uint32_t behind = ring.Link[1];
+    const std::uint32_t front = ring.Link[0];
+    const std::uint32_t next = mesh.Cells[cell].N[mesh.IndexOf(cell, behind)];
+    if (next == TetrahedralComplex::None)
+    {
+      return true;
+    }
+    const auto& v = mesh.Cells[next].V;
+    if (ring.Cells.size() == most || !patch.MayChange(next))
+    {
+      return false;
+    }
+    ring.Cells.insert(ring.Cells.begin(), next);
+    ring.Link.insert(ring.Link.begin(), v[IndexOfOther(v, a, b, front)]);
+    cell = next;
+  }
+}
+
+template class Patch<3>;
+template class Patch<4>;
 
 } // namespace voxplex

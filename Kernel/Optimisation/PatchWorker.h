@@ -54,7 +54,7 @@ public:
   {
   }
 
-  Patch& GetPatch() { return this->Target; }
+  Patch<3>& GetPatch() { return this->Target; }
   const FlipStatistics& GetFlipStatistics() const { return this->Topology.Counts(); }
   const SmoothingStatistics& GetSmoothingStatistics() const { return this->Geometry.Counts(); }
 
@@ -89,17 +89,14 @@ private:
     std::uint32_t Tried; ///< the patch's clock at the last try; 0: never tried
   };
 
-  bool IsPoor(std::uint32_t t) const
-  {
-    return this->Mesh.IsAlive(t) && this->Mesh.Scores[t] < 1.0f;
-  }
+  bool IsPoor(std::uint32_t t) const { return this->Mesh.IsPoor(t); }
   bool HasChanged(const Task& task) const;
   bool Mend(std::uint32_t t, Effort effort);
   bool MendByLastMeans(std::uint32_t t, Effort effort);
 
   TetrahedralComplex& Mesh;
   const OptimisationLimits& Limits;
-  Patch Target;
+  Patch<3> Target;
   Flips Topology;
   Smoother Geometry;
   std::vector<Task> Work;

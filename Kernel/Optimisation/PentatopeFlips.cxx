@@ -32,14 +32,14 @@ bool Has(const PentatopeComplex::Vertices& s, std::uint32_t v)
  * a smaller `across` gives the same one.
  * @param neighbours of s; those of other labels or slabs are None
  */
-PentatopeFlip FlipWith(const PentatopeComplex& complex, std::uint32_t s,
-  const std::array<std::uint32_t, 5>& neighbours, unsigned across)
+PentatopeFlip FlipWith(const PentatopeComplex& complex, const PentatopeRules& rules,
+  std::uint32_t s, const std::array<std::uint32_t, 5>& neighbours, unsigned across)
 {
-  const PentatopeComplex::Vertices& corners = complex.CornersOf(s);
-  const std::uint32_t apex = ApexOf(complex.CornersOf(neighbours[across]), corners);
+  const PentatopeComplex::Vertices& corners = complex.Cells[s].V;
+  const std::uint32_t apex = ApexOf(complex.Cells[neighbours[across]].V, corners);
   PentatopeFlip flip;
   flip.Old[flip.NumberOfOld++] = s;
-  flip.Before = complex.QualityOf(s);
+  flip.Before = complex.Scores[s];
   for (unsigned k = 0; k < 5; ++k)
   {
     PentatopeComplex::Vertices other = corners;
@@ -52,33 +52,32 @@ PentatopeFlip FlipWith(const PentatopeComplex& complex, std::uint32_t s,
       continue;
     }
     const std::uint32_t neighbour = neighbours[k];
-    const bool isThere = neighbour != None && Has(complex.CornersOf(neighbour), apex);
+    const bool isThere = neighbour != None && Has(complex.Cells[neighbour].V, apex);
     if (!isThere || k < across || flip.NumberOfOld == 4)
     {
       return {};
     }
     flip.Old[flip.NumberOfOld++] = neighbour;
-    flip.Before = std::min(flip.Before, complex.QualityOf(neighbour));
+    flip.Before = std::min(flip.Before, complex.Scores[neighbour]);
   }
   if (flip.NumberOfOld + flip.NumberOfNew != 6 || flip.NumberOfOld < 2)
   {
     return {};
   }
+  const std::int64_t label = complex.LabelValues[complex.LabelOf(s)];
   double oldRatio = 0.0;
   for (std::size_t k = 0; k < flip.NumberOfOld; ++k)
   {
-    oldRatio = std::max(oldRatio, ShapeOf(complex.PointsOf(complex.CornersOf(flip.Old[k]))).Ratio);
+    oldRatio = std::max(oldRatio, ShapeOf(complex.PointsOf(complex.Cells[flip.Old[k]].V)).Ratio);
   }
   flip.After = 1.0;
   for (std::size_t k = 0; k < flip.NumberOfNew; ++k)
   {
     const PentatopeShape shape = ShapeOf(complex.PointsOf(flip.New[k]));
-    if (!(shape.Quality > flip.Before + LeastGain) ||
-      !complex.Allows(shape, oldRatio, complex.LabelOf(s)))
+    if (!(shape.Quality > flip.Before + LeastGain) || !rules.Allows(shape, oldRatio, label))
     {
       return {};
     }
-    flip.Qualities[k] = shape.Quality;
     flip.After = std::min(flip.After, shape.Quality);
   }
   return flip;
@@ -87,14 +86,14 @@ PentatopeFlip FlipWith(const PentatopeComplex& complex, std::uint32_t s,
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-PentatopeFlip FindFlip(const PentatopeComplex& complex, std::uint32_t s)
+PentatopeFlip FindFlip(
+  const PentatopeComplex& complex, const PentatopeRules& rules, std::uint32_t s)
 {
-  std::array<std::uint32_t, 5> neighbours;
+  std::array<std::uint32_t, 5> neighbours = complex.Cells[s].N;
   for (unsigned i = 0; i < 5; ++i)
   {
-    neighbours[i] = complex.Neighbour(s, i);
     if (neighbours[i] != None &&
-      (complex.LabelOf(neighbours[i]) != complex.LabelOf(s) || complex.IsOnPlane(s, i)))
+      (complex.LabelOf(neighbours[i]) != complex.LabelOf(s) || rules.IsOnPlane(complex, s, i)))
     {
       neighbours[i] = None;
     }
@@ -104,7 +103,7 @@ PentatopeFlip FindFlip(const PentatopeComplex& complex, std::uint32_t s)
   {
     if (neighbours[i] != None)
     {
-      const PentatopeFlip flip = FlipWith(complex, s, neighbours, i);
+      const PentatopeFlip flip = FlipWith(complex, rules, s, neighbours, i);
       if (flip.NumberOfOld != 0 && flip.After - flip.Before > best.After - best.Before)
       {
         best = flip;
@@ -112,27 +111,6 @@ PentatopeFlip FindFlip(const PentatopeComplex& complex, std::uint32_t s)
     }
   }
   return best;
-}
-
-bool MakeFlip(PentatopeComplex& complex, const PentatopeFlip& flip)
-{
-  if (!complex.HandOver(
-        { flip.Old.data(), flip.NumberOfOld }, { flip.New.data(), flip.NumberOfNew }))
-  {
-    return false;
-  }
-  const LabelId label = complex.LabelOf(flip.Old[0]);
-  for (std::size_t k = 0; k < std::max(flip.NumberOfOld, flip.NumberOfNew); ++k)
-  {
-    if (k >= flip.NumberOfNew)
-    {
-      complex.Kill(flip.Old[k]);
-      continue;
-    }
-    const std::uint32_t s = k < flip.NumberOfOld ? flip.Old[k] : complex.Append(label);
-    complex.Replace(s, flip.New[k], flip.Qualities[k]);
-  }
-  return true;
 }
 
 } // namespace voxplex

@@ -7,12 +7,11 @@
 #ifndef voxplex_PentatopeFlips_h
 #define voxplex_PentatopeFlips_h
 
-#include "Optimisation/PentatopeComplex.h"
+#include "Optimisation/PentatopeRules.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace voxplex
 {
@@ -23,10 +22,9 @@ struct PentatopeFlip
   std::array<std::uint32_t, 4> Old;
   std::size_t NumberOfOld = 0; ///< 2, 3 or 4; 0: there is no flip
   std::array<PentatopeComplex::Vertices, 4> New;
-  std::array<double, 4> Qualities; ///< of the new ones
-  std::size_t NumberOfNew = 0;     ///< 6 - NumberOfOld
-  double Before = 0.0;             ///< smallest quality of the old ones
-  double After = 0.0;              ///< smallest quality of the new ones
+  std::size_t NumberOfNew = 0; ///< 6 - NumberOfOld
+  double Before = 0.0;         ///< smallest quality of the old ones
+  double After = 0.0;          ///< smallest quality of the new ones
 };
 
 /**
@@ -36,16 +34,9 @@ struct PentatopeFlip
  * of the other. If the mesh has all of one kind, the others can take their place: 2 pentatopes with a
  * common tetrahedron, 3 around a triangle, or 4 around an edge. All must have the same label and be on the
  * same side of all time planes, so interfaces and facets on planes stay as they are.
- *
- * Complexity: linear in the stars of the pentatope's vertices.
  */
-PentatopeFlip FindFlip(const PentatopeComplex& complex, std::uint32_t s);
-
-/**
- * Makes a flip. Stars then have to be brought up to date.
- * @return false, with nothing changed, if a component would be lost
- */
-bool MakeFlip(PentatopeComplex& complex, const PentatopeFlip& flip);
+PentatopeFlip FindFlip(
+  const PentatopeComplex& complex, const PentatopeRules& rules, std::uint32_t s);
 
 } // namespace voxplex
 

@@ -31,7 +31,7 @@ constexpr std::array<double, 3> Shares = { 1.0, 0.25, 0.0 };
 //------------------------------------------------------------------------------------------------
 PentatopeInsertion PentatopeCavity::Find(std::uint32_t s, double target)
 {
-  const std::array<const Point<4>*, 5> corners = this->Complex.PointsOf(this->Complex.CornersOf(s));
+  const std::array<const Point<4>*, 5> corners = this->Mesh.PointsOf(this->Mesh.Cells[s].V);
   const Point<4> centre = ShapeOf(corners).Ball.Center;
   Point<4> centroid{};
   for (const Point<4>* corner : corners)
@@ -96,11 +96,11 @@ void PentatopeCavity::Add(std::uint32_t s)
 {
   this->Cavity.push_back(s);
   this->Seen.push_back(s);
-  this->Before = std::min(this->Before, this->Complex.QualityOf(s));
-  const PentatopeComplex::Vertices& corners = this->Complex.CornersOf(s);
+  this->Before = std::min(this->Before, this->Mesh.Scores[s]);
+  const PentatopeComplex::Vertices& corners = this->Mesh.Cells[s].V;
   for (unsigned i = 0; i < 5; ++i)
   {
-    const std::uint32_t behind = this->Complex.Neighbour(s, i);
+    const std::uint32_t behind = this->Mesh.Cells[s].N[i];
     if (behind != None)
     {
       this->Seen.push_back(behind);
@@ -115,14 +115,14 @@ void PentatopeCavity::Add(std::uint32_t s)
     BoundaryFacet& facet = this->Facets.emplace_back();
     facet.Inside = s;
     facet.Opposite = i;
-    const bool mayOpen = behind != None && this->Complex.IsAlive(behind) &&
-      this->Complex.LabelOf(behind) == this->Complex.LabelOf(s) && !this->Complex.IsOnPlane(s, i);
+    const bool mayOpen = behind != None && this->Mesh.LabelOf(behind) == this->Mesh.LabelOf(s) &&
+      !this->Rules.IsOnPlane(this->Mesh, s, i);
     facet.Behind = mayOpen ? behind : None;
     for (std::size_t k = 0, m = 0; k < 5; ++k)
     {
       if (k != i)
       {
-        facet.New.Facet[m++] = &this->Complex.PointOf(corners[k]);
+        facet.New.Facet[m++] = &this->Mesh.Points[corners[k]];
       }
     }
     facet.New.MeasureFacet(i);
@@ -218,7 +218,7 @@ bool PentatopeCavity::Grow(const Point<4>& p)
   {
     const BoundaryFacet& facet = this->Facets[k];
     const double one = facet.Behind == None ? worth : WorthOf(facet, p);
-    if (one < worth && !this->Contains(facet.Behind) && this->Keeps(facet.Behind))
+    if (one < worth && this->Keeps(facet.Behind))
     {
       worth = one;
       worst = k;
@@ -232,17 +232,11 @@ bool PentatopeCavity::Grow(const Point<4>& p)
   return true;
 }
 
-/** Beside earlier insertions a facet inside of the cavity may still be listed, because stars are out of date. */
-bool PentatopeCavity::Contains(std::uint32_t s) const
-{
-  return std::find(this->Cavity.begin(), this->Cavity.end(), s) != this->Cavity.end();
-}
-
 /** Whether all vertices of the cavity stay on its boundary if a pentatope is added. Others would be lost. */
 bool PentatopeCavity::Keeps(std::uint32_t s) const
 {
   const auto isCommon = [&](const BoundaryFacet& facet) { return facet.Behind == s; };
-  const PentatopeComplex::Vertices& corners = this->Complex.CornersOf(s);
+  const PentatopeComplex::Vertices& corners = this->Mesh.Cells[s].V;
   return std::all_of(corners.begin(), corners.end(),
     [&](std::uint32_t v)
     {
@@ -250,7 +244,7 @@ bool PentatopeCavity::Keeps(std::uint32_t s) const
       bool stays = false;
       for (const BoundaryFacet& facet : this->Facets)
       {
-        const PentatopeComplex::Vertices& inside = this->Complex.CornersOf(facet.Inside);
+        const PentatopeComplex::Vertices& inside = this->Mesh.Cells[facet.Inside].V;
         const bool hasIt =
           std::find(inside.begin(), inside.end(), v) != inside.end() && inside[facet.Opposite] != v;
         if (hasIt && isCommon(facet))
@@ -267,22 +261,22 @@ bool PentatopeCavity::Keeps(std::uint32_t s) const
 /** Whether new pentatopes keep the bounds. As many as among the old ones may break them, by no more than those. */
 bool PentatopeCavity::IsAllowed(const Point<4>& p) const
 {
-  const LabelId label = this->Complex.LabelOf(this->Cavity.front());
+  const std::int64_t label = this->Mesh.LabelValues[this->Mesh.LabelOf(this->Cavity.front())];
   double oldRatio = 0.0;
   std::size_t excused = 0;
   for (const std::uint32_t s : this->Cavity)
   {
-    const PentatopeShape shape = ShapeOf(this->Complex.PointsOf(this->Complex.CornersOf(s)));
+    const PentatopeShape shape = ShapeOf(this->Mesh.PointsOf(this->Mesh.Cells[s].V));
     oldRatio = std::max(oldRatio, shape.Ratio);
-    excused += this->Complex.Allows(shape, 0.0, label) ? 0 : 1;
+    excused += this->Rules.Allows(shape, 0.0, label) ? 0 : 1;
   }
   std::size_t broken = 0;
   return std::all_of(this->Facets.begin(), this->Facets.end(),
     [&](const BoundaryFacet& facet)
     {
       const PentatopeShape shape = facet.New.ShapeAt(p);
-      return this->Complex.Allows(shape, 0.0, label) ||
-        (++broken <= excused && this->Complex.Allows(shape, oldRatio, label));
+      return this->Rules.Allows(shape, 0.0, label) ||
+        (++broken <= excused && this->Rules.Allows(shape, oldRatio, label));
     });
 }
 
@@ -295,36 +289,11 @@ PentatopeInsertion PentatopeCavity::Result(const Point<4>& p, double worth) cons
   result.After = worth;
   for (const BoundaryFacet& facet : this->Facets)
   {
-    PentatopeComplex::Vertices corners = this->Complex.CornersOf(facet.Inside);
+    PentatopeComplex::Vertices corners = this->Mesh.Cells[facet.Inside].V;
     corners[facet.Opposite] = None;
     result.New.push_back(corners);
-    result.Qualities.push_back(facet.New.ShapeAt(p).Quality);
   }
   return result;
-}
-
-//------------------------------------------------------------------------------------------------
-std::uint32_t MakeInsertion(PentatopeComplex& complex, const PentatopeInsertion& insertion)
-{
-  if (!complex.HandOver(insertion.Old, insertion.New, insertion.Place))
-  {
-    return None;
-  }
-  const LabelId label = complex.LabelOf(insertion.Old.front());
-  const std::uint32_t v = complex.AddPoint(insertion.Place);
-  for (std::size_t k = 0; k < std::max(insertion.Old.size(), insertion.New.size()); ++k)
-  {
-    if (k >= insertion.New.size())
-    {
-      complex.Kill(insertion.Old[k]);
-      continue;
-    }
-    PentatopeComplex::Vertices corners = insertion.New[k];
-    std::replace(corners.begin(), corners.end(), None, v);
-    const std::uint32_t s = k < insertion.Old.size() ? insertion.Old[k] : complex.Append(label);
-    complex.Replace(s, corners, insertion.Qualities[k]);
-  }
-  return v;
 }
 
 } // namespace voxplex

@@ -7,7 +7,7 @@
 #ifndef voxplex_PentatopeInsertion_h
 #define voxplex_PentatopeInsertion_h
 
-#include "Optimisation/PentatopeComplex.h"
+#include "Optimisation/PentatopeRules.h"
 #include "Optimisation/PentatopeStar.h"
 
 #include <cstddef>
@@ -22,7 +22,6 @@ struct PentatopeInsertion
 {
   std::vector<std::uint32_t> Old;
   std::vector<PentatopeComplex::Vertices> New; ///< the new vertex is None
-  std::vector<double> Qualities;               ///< of the new ones
   Point<4> Place{};                            ///< of the new vertex
   double Before = 0.0;                         ///< smallest quality of the old ones
   double After = 0.0;                          ///< smallest quality of the new ones
@@ -40,15 +39,16 @@ struct PentatopeInsertion
 class PentatopeCavity
 {
 public:
-  explicit PentatopeCavity(const PentatopeComplex& complex)
-    : Complex(complex)
+  PentatopeCavity(const PentatopeComplex& complex, const PentatopeRules& rules)
+    : Mesh(complex)
+    , Rules(rules)
   {
   }
 
   /**
    * The best insertion for a pentatope. Its After is at most Before if there is none.
    *
-   * Complexity: linear in the stars of the cavity's vertices, whose number is bounded.
+   * Complexity: constant, because the number of pentatopes is bounded.
    * @param target the cavity does not grow any more when all new pentatopes are as good
    */
   PentatopeInsertion Find(std::uint32_t s, double target);
@@ -69,23 +69,17 @@ private:
   double WorthAt(const Point<4>& p, double enough) const;
   Point<4> DirectionAt(const Point<4>& p, double worth, double share) const;
   bool Grow(const Point<4>& p);
-  bool Contains(std::uint32_t s) const;
   bool Keeps(std::uint32_t s) const;
   bool IsAllowed(const Point<4>& p) const;
   PentatopeInsertion Result(const Point<4>& p, double worth) const;
 
-  const PentatopeComplex& Complex;
+  const PentatopeComplex& Mesh;
+  const PentatopeRules& Rules;
   std::vector<std::uint32_t> Cavity;
   std::vector<BoundaryFacet> Facets;
   std::vector<std::uint32_t> Seen;
   double Before = 0.0;
 };
-
-/**
- * Makes an insertion, and returns the new vertex. Stars then have to be brought up to date.
- * @return None, with nothing changed, if a component would be lost
- */
-std::uint32_t MakeInsertion(PentatopeComplex& complex, const PentatopeInsertion& insertion);
 
 } // namespace voxplex
 

@@ -3,6 +3,7 @@
 #include "Optimisation/PentatopeOptimiser.h"
 
 #include "Optimisation/MoveLimits.h"
+#include "Optimisation/Patch.h"
 #include "Optimisation/PentatopeFlips.h"
 #include "Optimisation/PentatopeInsertion.h"
 #include "Optimisation/PentatopeSmoother.h"
@@ -78,15 +79,18 @@ std::uint32_t Mix(std::uint32_t x)
 class Optimiser
 {
 public:
-  Optimiser(PentatopeComplex& complex, const MoveLimits<4>& limits, const SimplexMesh<4>& mesh,
-    const PentatopeBounds& bounds, unsigned threads, const std::stop_token& stop)
-    : Complex(complex)
+  Optimiser(PentatopeComplex& complex, const PentatopeRules& rules, const MoveLimits<4>& limits,
+    const SimplexMesh<4>& mesh, const PentatopeBounds& bounds, unsigned threads,
+    const std::stop_token& stop)
+    : Mesh(complex)
+    , Target(complex, {}, 0)
+    , Rules(rules)
     , Limits(limits)
     , Original(mesh)
     , Bounds(bounds)
     , Threads(threads)
     , Stop(stop)
-    , HasNews(complex.NumberOfPoints(), 1)
+    , HasNews(complex.Points.size(), 1)
   {
   }
 
@@ -144,7 +148,7 @@ private:
       this->FindPoor(target);
       this->Smooth(this->FindVerticesToMove(),
         [this](PentatopeSmoother& smoother, std::uint32_t v)
-        { return smoother.RaiseWorst(v, this->Goal, this->Tolerance); });
+        { return smoother.RaiseWorst(v, this->Mesh.Goal, this->Tolerance); });
       this->FindPoor(target);
       if (static_cast<double>(this->Poor.size()) > worthIt * before)
       {
@@ -156,35 +160,35 @@ private:
   /** The pentatopes below a target, worst first. */
   void FindPoor(double target)
   {
-    this->Goal = target;
+    this->Mesh.Goal = target;
     this->Poor.clear();
-    for (std::size_t s = 0; s < this->Complex.NumberOfPentatopes(); ++s)
+    for (std::uint32_t s = 0; s < this->Mesh.Cells.size(); ++s)
     {
-      if (this->Complex.IsPoor(s, this->Goal))
+      if (this->Mesh.IsPoor(s))
       {
-        this->Poor.push_back(static_cast<std::uint32_t>(s));
+        this->Poor.push_back(s);
       }
     }
     std::stable_sort(this->Poor.begin(), this->Poor.end(),
       [this](std::uint32_t a, std::uint32_t b)
-      { return this->Complex.QualityOf(a) < this->Complex.QualityOf(b); });
+      { return this->Mesh.Scores[a] < this->Mesh.Scores[b]; });
   }
 
   /** Of the poor pentatopes those that a round looks at. */
   std::span<const std::uint32_t> Worst() const
   {
-    const std::size_t most = FewestOfRound + this->Complex.NumberOfPentatopes() / PentatopesPerPoor;
+    const std::size_t most = FewestOfRound + this->Mesh.Cells.size() / PentatopesPerPoor;
     return std::span(this->Poor).first(std::min({ most, MostOfRound, this->Poor.size() }));
   }
 
   double Smallest() const
   {
     double smallest = 1.0;
-    for (std::size_t s = 0; s < this->Complex.NumberOfPentatopes(); ++s)
+    for (std::uint32_t s = 0; s < this->Mesh.Cells.size(); ++s)
     {
-      if (this->Complex.LabelOf(s) != 0 && this->Complex.IsAlive(s))
+      if (this->Mesh.IsAlive(s) && this->Mesh.LabelOf(s) != 0)
       {
-        smallest = std::min(smallest, this->Complex.QualityOf(s));
+        smallest = std::min(smallest, this->Mesh.Scores[s]);
       }
     }
     return smallest;
@@ -203,7 +207,7 @@ private:
         {
           for (std::size_t k = first; k < last; ++k)
           {
-            flips[k] = FindFlip(this->Complex, candidates[k]);
+            flips[k] = FindFlip(this->Mesh, this->Rules, candidates[k]);
           }
         },
         this->Stop);
@@ -213,7 +217,6 @@ private:
         return;
       }
       candidates = this->MakeFlips(flips);
-      this->Complex.UpdateStars(this->Threads, this->Stop);
     }
   }
 
@@ -223,43 +226,64 @@ private:
    */
   std::vector<std::uint32_t> MakeFlips(const std::vector<PentatopeFlip>& flips)
   {
-    std::vector<std::uint8_t> hasChanged(this->Complex.NumberOfPentatopes(), 0);
+    std::vector<std::uint8_t> hasChanged(this->Mesh.Cells.size(), 0);
     std::vector<std::uint32_t> next;
     for (const PentatopeFlip& flip : flips)
     {
       const std::span<const std::uint32_t> old(flip.Old.data(), flip.NumberOfOld);
       next.insert(next.end(), old.begin(), old.end());
-      const auto first = static_cast<std::uint32_t>(this->Complex.NumberOfPentatopes());
       if (std::none_of(
             old.begin(), old.end(), [&](std::uint32_t s) { return hasChanged[s] != 0; }) &&
-        MakeFlip(this->Complex, flip))
+        this->Replace(old, { flip.New.data(), flip.NumberOfNew }))
       {
         for (const std::uint32_t s : old)
         {
           hasChanged[s] = 1;
         }
-        for (std::uint32_t s = first; s < this->Complex.NumberOfPentatopes(); ++s)
-        {
-          next.push_back(s);
-        }
-        this->TellVertices(flip.New[0]);
-        this->TellVertices(flip.New[1]); // the two have all six points
+        next.insert(next.end(), this->Target.Poor.begin(), this->Target.Poor.end());
         ++this->Done.Flips[flip.NumberOfOld - 2];
       }
     }
     std::sort(next.begin(), next.end());
     next.erase(std::unique(next.begin(), next.end()), next.end());
-    std::erase_if(next, [this](std::uint32_t s) { return !this->Complex.IsPoor(s, this->Goal); });
+    std::erase_if(next, [this](std::uint32_t s) { return !this->Mesh.IsPoor(s); });
     std::stable_sort(next.begin(), next.end(),
       [this](std::uint32_t a, std::uint32_t b)
-      { return this->Complex.QualityOf(a) < this->Complex.QualityOf(b); });
+      { return this->Mesh.Scores[a] < this->Mesh.Scores[b]; });
     return next;
+  }
+
+  /**
+   * Replaces pentatopes of one label by others. Target.Poor receives the poor ones.
+   * @param added the vertex None of new ones
+   * @return false, with nothing changed, if a component would be lost
+   */
+  bool Replace(std::span<const std::uint32_t> old,
+    std::span<const PentatopeComplex::Vertices> vertices, std::uint32_t added = None)
+  {
+    this->Fresh.clear();
+    for (const PentatopeComplex::Vertices& v : vertices)
+    {
+      this->Fresh.push_back({ v, this->Mesh.LabelOf(old.front()) });
+      std::replace(this->Fresh.back().V.begin(), this->Fresh.back().V.end(), None, added);
+    }
+    this->Target.Poor.clear();
+    this->Target.NeedSlots(vertices.size());
+    if (!this->Target.Replace(old, this->Fresh))
+    {
+      return false;
+    }
+    for (const NewCell<4>& cell : this->Fresh)
+    {
+      this->TellVertices(cell.V);
+    }
+    return true;
   }
 
   /** Of a vertex and its twin the one that is listed. It moves both. */
   std::uint32_t Leader(std::uint32_t v) const
   {
-    return std::min(v, this->Complex.TwinOf(v)); // None is the largest number
+    return std::min(v, this->Mesh.TwinOf(v)); // None is the largest number
   }
 
   /**
@@ -273,11 +297,11 @@ private:
     // In the order of points, each vertex would have to wait for the one before.
     std::sort(vertices.begin(), vertices.end(),
       [](std::uint32_t a, std::uint32_t b) { return std::pair(Mix(a), a) < std::pair(Mix(b), b); });
-    std::vector<std::uint32_t> ranks(this->Complex.NumberOfPoints(), None);
+    std::vector<std::uint32_t> ranks(this->Mesh.Points.size(), None);
     const auto setRank = [this, &ranks](std::uint32_t v, std::uint32_t rank)
     {
       ranks[v] = rank;
-      if (const std::uint32_t twin = this->Complex.TwinOf(v); twin != None)
+      if (const std::uint32_t twin = this->Mesh.TwinOf(v); twin != None)
       {
         ranks[twin] = rank;
       }
@@ -287,67 +311,76 @@ private:
       setRank(vertices[k], static_cast<std::uint32_t>(k));
     }
     std::atomic<std::uint64_t> moves{ 0 };
-    const auto forEach = [this](std::size_t number, std::size_t grain, const auto& function)
-    {
-      ParallelFor(
-        0, number, grain, this->Threads,
-        [&](std::size_t first, std::size_t last)
-        {
-          for (std::size_t k = first; k < last; ++k)
-          {
-            function(k);
-          }
-        },
-        this->Stop);
-    };
+    std::vector<std::uint32_t> waitsFor(ranks.size(), None); // one that comes before each vertex
     while (!vertices.empty())
     {
-      std::vector<std::uint8_t> isFirst(vertices.size(), 1);
       if (NumberOfThreads(this->Threads) > 1)
       {
-        forEach(vertices.size(), Grain,
-          [&](std::size_t k) { isFirst[k] = this->ComesFirst(vertices[k], ranks) ? 1 : 0; });
+        ParallelFor(
+          0, vertices.size(), Grain, this->Threads,
+          [&](std::size_t begin, std::size_t end)
+          {
+            VertexStar<4> star;
+            for (std::size_t k = begin; k < end; ++k)
+            {
+              std::uint32_t& earlier = waitsFor[vertices[k]];
+              if (earlier == None || ranks[earlier] == None)
+              {
+                earlier = this->FindEarlier(vertices[k], ranks, star);
+              }
+            }
+          },
+          this->Stop);
       }
       std::vector<std::uint32_t> first;
       std::size_t left = 0;
-      for (std::size_t k = 0; k < vertices.size(); ++k)
+      for (const std::uint32_t v : vertices)
       {
-        if (isFirst[k] != 0)
+        if (waitsFor[v] == None)
         {
-          first.push_back(vertices[k]);
+          first.push_back(v);
         }
         else
         {
-          vertices[left++] = vertices[k];
+          vertices[left++] = v;
         }
       }
       vertices.resize(left);
-      forEach(first.size(), MovesGrain,
-        [&](std::size_t k)
+      ParallelFor(
+        0, first.size(), MovesGrain, this->Threads,
+        [&](std::size_t begin, std::size_t end)
         {
-          moves += this->Improve(first[k], improve) ? 1 : 0;
-          setRank(first[k], None);
-        });
+          PentatopeSmoother smoother(this->Mesh, this->Rules, this->Limits, this->Original.Points);
+          for (std::size_t k = begin; k < end; ++k)
+          {
+            moves += this->Improve(smoother, first[k], improve) ? 1 : 0;
+            setRank(first[k], None);
+          }
+        },
+        this->Stop);
     }
     this->Done.Moves += moves;
   }
 
   /**
-   * Inserts vertices where pentatopes are still poor. Returns whether there was one. Cavities do not
-   * reach into new pentatopes, because stars are brought up to date at the end.
+   * Inserts vertices where pentatopes are still poor. Returns whether there was one.
    *
    * Several insertions are found at the same time. One that has seen a pentatope that has changed since is found
    * again. So the result is that of one thread.
    */
   bool Insert()
   {
-    const double target = KeptGain * this->Goal;
+    const double target = KeptGain * this->Mesh.Goal;
     const std::span<const std::uint32_t> worst = this->Worst();
     const std::size_t threads = NumberOfThreads(this->Threads);
     const std::size_t atOnce = threads == 1 ? 1 : threads * InsertionsAtOnce;
     const std::uint64_t before = this->Done.Insertions;
+    const auto spare = static_cast<std::uint32_t>(this->Mesh.Points.size());
+    this->Mesh.AddVertices(worst.size());
+    this->HasNews.resize(this->Mesh.Points.size(), 1);
+    this->Target.SetSpareVertices(spare, static_cast<std::uint32_t>(this->Mesh.Points.size()));
     std::vector<PentatopeInsertion> insertions(std::min(atOnce, worst.size()));
-    std::vector<std::uint8_t> hasChanged(this->Complex.NumberOfPentatopes(), 0);
+    std::vector<std::uint8_t> hasChanged(this->Mesh.Cells.size(), 0);
     std::size_t inVain = 0;
     for (std::size_t begin = 0; begin < worst.size() && inVain < MostInVain; begin += atOnce)
     {
@@ -370,10 +403,12 @@ private:
         if (this->Make(insertions[k]))
         {
           inVain = 0;
-          for (const std::uint32_t s : insertions[k].Old)
+          hasChanged.resize(this->Mesh.Cells.size(), 0);
+          changed.insert(changed.end(), insertions[k].Old.begin(), insertions[k].Old.end());
+          changed.insert(changed.end(), this->Target.Poor.begin(), this->Target.Poor.end());
+          for (const std::uint32_t s : changed)
           {
             hasChanged[s] = 1;
-            changed.push_back(s);
           }
         }
       }
@@ -386,8 +421,7 @@ private:
     {
       return false;
     }
-    this->Complex.UpdateStars(this->Threads, this->Stop);
-    this->FindPoor(this->Goal);
+    this->FindPoor(this->Mesh.Goal);
     return true;
   }
 
@@ -398,13 +432,15 @@ private:
   void MakeRoom()
   {
     std::vector<std::uint32_t> vertices;
+    VertexStar<4> star;
     for (const std::uint32_t s : this->Worst())
     {
-      for (const std::uint32_t v : this->Complex.CornersOf(s))
+      for (const std::uint32_t v : this->Mesh.Cells[s].V)
       {
-        for (const std::uint32_t beside : this->Complex.StarOf(v))
+        this->Mesh.GatherStar(v, star, [](std::uint32_t) { return true; });
+        for (const PentatopeComplex::Vertices& corners : star.Corners)
         {
-          for (const std::uint32_t other : this->Complex.CornersOf(beside))
+          for (const std::uint32_t other : corners)
           {
             vertices.push_back(this->Leader(other));
           }
@@ -422,44 +458,52 @@ private:
   /** The best insertion for a pentatope; none if it was part of an earlier cavity. */
   PentatopeInsertion FindInsertion(std::uint32_t s, double target) const
   {
-    return this->Complex.IsPoor(s, this->Goal) ? PentatopeCavity(this->Complex).Find(s, target)
-                                               : PentatopeInsertion();
+    if (this->Mesh.IsPoor(s))
+    {
+      return PentatopeCavity(this->Mesh, this->Rules).Find(s, target);
+    }
+    PentatopeInsertion none;
+    none.Seen = { s };
+    return none;
   }
 
   /** Makes an insertion if it is worth it. Returns whether it was. */
   bool Make(const PentatopeInsertion& insertion)
   {
+    const std::uint32_t v = this->Target.SpareVertex();
     if (!(insertion.After > insertion.Before))
     {
       return false;
     }
-    for (const std::uint32_t old : insertion.Old) // while they have vertices
-    {
-      this->TellVertices(this->Complex.CornersOf(old));
-    }
-    if (MakeInsertion(this->Complex, insertion) == None)
+    this->Target.PlaceVertex(v, insertion.Place);
+    if (!this->Replace(insertion.Old, insertion.New, v))
     {
       return false;
     }
+    this->Target.KeepVertex();
     ++this->Done.Insertions;
-    this->HasNews.push_back(1);
     return true;
   }
 
-  bool ComesFirst(std::uint32_t v, const std::vector<std::uint32_t>& ranks) const
+  /** A vertex beside v or its twin that has a lower rank; None if there is none. */
+  std::uint32_t FindEarlier(
+    std::uint32_t v, const std::vector<std::uint32_t>& ranks, VertexStar<4>& star) const
   {
+    std::uint32_t earlier = None;
     const auto isFirstIn = [&](std::uint32_t s)
     {
-      const PentatopeComplex::Vertices& corners = this->Complex.CornersOf(s);
-      return std::all_of(corners.begin(), corners.end(),
-        [&](std::uint32_t other) { return ranks[other] >= ranks[v]; });
+      const PentatopeComplex::Vertices& corners = this->Mesh.Cells[s].V;
+      const auto found = std::find_if(corners.begin(), corners.end(),
+        [&](std::uint32_t other) { return ranks[other] < ranks[v]; });
+      earlier = found == corners.end() ? None : *found;
+      return earlier == None;
     };
-    const std::span<const std::uint32_t> star = this->Complex.StarOf(v);
-    const std::uint32_t twin = this->Complex.TwinOf(v);
-    const std::span<const std::uint32_t> other =
-      twin == None ? std::span<const std::uint32_t>() : this->Complex.StarOf(twin);
-    return std::all_of(star.begin(), star.end(), isFirstIn) &&
-      std::all_of(other.begin(), other.end(), isFirstIn);
+    const std::uint32_t twin = this->Mesh.TwinOf(v);
+    if (this->Mesh.GatherStar(v, star, isFirstIn) && twin != None)
+    {
+      this->Mesh.GatherStar(twin, star, isFirstIn);
+    }
+    return earlier;
   }
 
   std::vector<std::uint32_t> FindVerticesToMove() const
@@ -467,7 +511,7 @@ private:
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t s : this->Poor)
     {
-      for (const std::uint32_t v : this->Complex.CornersOf(s))
+      for (const std::uint32_t v : this->Mesh.Cells[s].V)
       {
         if (this->HasNews[this->Leader(v)] != 0)
         {
@@ -481,21 +525,16 @@ private:
   }
 
   template <typename Function>
-  bool Improve(std::uint32_t v, const Function& improve)
+  bool Improve(PentatopeSmoother& smoother, std::uint32_t v, const Function& improve)
   {
     std::atomic_ref<std::uint8_t>(this->HasNews[v]).store(0, std::memory_order_relaxed);
-    PentatopeSmoother smoother(this->Complex, this->Limits, this->Original.Points);
     if (!improve(smoother, v))
     {
       return false;
     }
-    for (const std::uint32_t of : { v, this->Complex.TwinOf(v) })
+    for (const MovedPentatope& one : smoother.Around())
     {
-      for (const std::uint32_t s :
-        of == None ? std::span<const std::uint32_t>() : this->Complex.StarOf(of))
-      {
-        this->TellVertices(this->Complex.CornersOf(s));
-      }
+      this->TellVertices(this->Mesh.Cells[one.Id].V);
     }
     return true;
   }
@@ -510,30 +549,38 @@ private:
     }
   }
 
-  PentatopeComplex& Complex;
+  PentatopeComplex& Mesh;
+  Patch<4> Target; ///< all of the mesh
+  const PentatopeRules& Rules;
   const MoveLimits<4>& Limits;
   const SimplexMesh<4>& Original;
   const PentatopeBounds& Bounds;
   const unsigned Threads;
   const std::stop_token& Stop;
   std::vector<std::uint32_t> Poor;
+  std::vector<NewCell<4>> Fresh;
   std::vector<std::uint8_t> HasNews; ///< of each vertex, since it was tried
   PentatopeStatistics Done;
-  double Goal = 0.0;      ///< pentatopes below it are poor
   double Tolerance = 0.0; ///< how far vertices may leave interfaces
 };
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-PentatopeStatistics OptimisePentatopes(SimplexMesh<4>& mesh, const Surroundings& outside,
+PentatopeStatistics OptimisePentatopes(SimplexMesh<4>& mesh, const Surroundings<4>& outside,
   const Domain<4>& surfaces, const LabelImage<4>& image, const PentatopeBounds& bounds,
   unsigned threads, const std::stop_token& stop)
 {
   const MoveLimits<4> limits(image, surfaces, bounds.Planes);
-  PentatopeComplex complex(mesh, outside, image, surfaces, bounds, threads, stop);
-  const PentatopeStatistics done = Optimiser(complex, limits, mesh, bounds, threads, stop).Run();
-  complex.CopyTo(mesh);
+  const PentatopeRules rules(surfaces, bounds);
+  PentatopeComplex complex(mesh, {}, threads, stop, {}, {}, outside);
+  if (bounds.Guard)
+  {
+    complex.Protect(*bounds.Guard, mesh, threads, stop);
+  }
+  const PentatopeStatistics done =
+    Optimiser(complex, rules, limits, mesh, bounds, threads, stop).Run();
+  complex.Write(mesh, threads);
   return done;
 }
 

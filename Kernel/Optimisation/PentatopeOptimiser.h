@@ -10,7 +10,8 @@
 #include "Domain/Domain.h"
 #include "Image/LabelImage.h"
 #include "Mesh/SimplexMesh.h"
-#include "Optimisation/PentatopeComplex.h"
+#include "Optimisation/PentatopeRules.h"
+#include "Optimisation/Surroundings.h"
 
 #include <array>
 #include <cstdint>
@@ -46,8 +47,7 @@ struct PentatopeStatistics
  * - facets on time planes (PentatopeBounds::Planes), and those at the ends of a periodic mesh. Both ends stay
  *   congruent: a vertex and its twin (SimplexMesh::Twins) move together.
  *
- * Points keep their order. So do pentatopes; new ones come last, of both. The result does not depend on the
- * number of threads.
+ * Points keep their order; new ones come last. The result does not depend on the number of threads.
  *
  * @param mesh a valid mesh; unchanged if this throws
  * @param outside all pentatopes around it
@@ -58,7 +58,7 @@ struct PentatopeStatistics
  *
  * Complexity: linear in the size of the mesh.
  */
-PentatopeStatistics OptimisePentatopes(SimplexMesh<4>& mesh, const Surroundings& outside,
+PentatopeStatistics OptimisePentatopes(SimplexMesh<4>& mesh, const Surroundings<4>& outside,
   const Domain<4>& surfaces, const LabelImage<4>& image, const PentatopeBounds& bounds,
   unsigned threads = 1, const std::stop_token& stop = {});
 

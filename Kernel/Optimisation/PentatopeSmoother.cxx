@@ -81,7 +81,7 @@ bool PentatopeSmoother::RaiseWorst(std::uint32_t v, double target, double tolera
   std::size_t share = 0;
   for (unsigned k = 0; k < most && step >= shortest && quality < target; ++k)
   {
-    const Point<4> here = this->Target.PointOf(v);
+    const Point<4> here = this->Target.Points[v];
     Point<4> direction = this->GradientOfWorst(here, (1.0 + Shares[share]) * quality);
     this->Project(direction);
     const bool leads = Dot(direction, direction) > 0.0;
@@ -125,7 +125,7 @@ bool PentatopeSmoother::RaiseSum(std::uint32_t v, double floor)
   double step = FirstStepOfSum * this->Star.ShortestEdge();
   for (unsigned k = 0; k < MostStepsOfSum; ++k)
   {
-    const Point<4> here = this->Target.PointOf(v);
+    const Point<4> here = this->Target.Points[v];
     Point<4> direction = this->GradientOfSum(here);
     this->Project(direction);
     if (!(Dot(direction, direction) > 0.0))
@@ -157,19 +157,19 @@ bool PentatopeSmoother::RaiseSum(std::uint32_t v, double floor)
   return moved;
 }
 
-/** Returns false if no pentatope of the mesh is around the vertex. */
+/** Returns false if no pentatope of the mesh is around the vertex, or some may not be known. */
 bool PentatopeSmoother::Begin(std::uint32_t v)
 {
-  this->Start = this->Target.PointOf(v);
+  this->Start = this->Target.Points[v];
   if (this->Limits.HasTwin(this->Start) && this->Target.TwinOf(v) == None)
   {
     return false;
   }
-  this->Star.Gather(this->Target, v);
+  const bool isWhole = this->Star.Gather(this->Target, v);
   this->Tried.resize(this->Star.Inside().size());
   this->FirstTried = 0;
   this->GatherNormals(v);
-  return !this->Tried.empty();
+  return isWhole && !this->Tried.empty();
 }
 
 void PentatopeSmoother::GatherNormals(std::uint32_t v)
@@ -177,18 +177,41 @@ void PentatopeSmoother::GatherNormals(std::uint32_t v)
   this->Normals.clear();
   this->FacetNormals.clear();
   const std::uint32_t twin = this->Target.TwinOf(v);
-  this->IsOnInterface =
-    !this->Target.FacetsAt(v).empty() || (twin != None && !this->Target.FacetsAt(twin).empty());
+  this->IsOnInterface = this->Target.Kinds[v] != VertexRole::Free ||
+    (twin != None && this->Target.Kinds[twin] != VertexRole::Free);
   if (!this->IsOnInterface)
   {
     return;
   }
+  const bool keepsTime = this->Limits.KeepsTime(this->Start);
+  // The outer products of the normals over their areas, which are as long as the normals.
   std::array<Point<4>, 4> sum{};
   double total = 0.0;
-  this->AddNormals(v, sum, total);
-  if (twin != None)
+  for (const MovedPentatope& one : this->Star.Inside())
   {
-    this->AddNormals(twin, sum, total);
+    const PentatopeComplex::Cell& cell = this->Target.Cells[one.Id];
+    for (unsigned i = 0; i < 5; ++i)
+    {
+      if (cell.V[i] == one.Vertex || this->Target.LabelOf(cell.N[i]) >= one.Label)
+      {
+        continue; // no facet of an interface, or counted from the other side
+      }
+      const auto corner = [&](unsigned k) -> const Point<4>&
+      { return this->Target.PointOf(one.Id, (i + k) % 5); };
+      Point<4> normal = Cross(Subtract(corner(2), corner(1)), Subtract(corner(3), corner(1)),
+        Subtract(corner(4), corner(1)));
+      normal[3] = keepsTime ? 0.0 : normal[3]; // such a vertex moves in space only
+      const double area = std::sqrt(Dot(normal, normal));
+      for (std::size_t a = 0; a < 4 && area > 0.0; ++a)
+      {
+        for (std::size_t b = 0; b < 4; ++b)
+        {
+          sum[a][b] += normal[a] * normal[b] / area;
+        }
+      }
+      total += area;
+      this->FacetNormals.push_back(normal);
+    }
   }
   const SymmetricEigen<4> eigen = EigenOf<4>(sum);
   for (std::size_t k = 0; k < 4; ++k)
@@ -201,31 +224,6 @@ void PentatopeSmoother::GatherNormals(std::uint32_t v)
   if (this->Normals.size() == 1)
   {
     this->Normals.front() = this->SumOfNormals(this->Normals.front());
-  }
-}
-
-/** Adds the normals of the facets around a vertex, and their outer products over their areas. */
-void PentatopeSmoother::AddNormals(std::uint32_t v, std::array<Point<4>, 4>& sum, double& total)
-{
-  const bool keepsTime = this->Limits.KeepsTime(this->Start);
-  for (const std::uint32_t f : this->Target.FacetsAt(v))
-  {
-    const std::array<std::uint32_t, 4>& corners = this->Target.Facet(f);
-    const Point<4>& origin = this->Target.PointOf(corners[0]);
-    Point<4> normal = Cross(Subtract(this->Target.PointOf(corners[1]), origin),
-      Subtract(this->Target.PointOf(corners[2]), origin),
-      Subtract(this->Target.PointOf(corners[3]), origin));
-    normal[3] = keepsTime ? 0.0 : normal[3]; // such a vertex moves in space only
-    const double area = std::sqrt(Dot(normal, normal));
-    for (std::size_t a = 0; a < 4 && area > 0.0; ++a)
-    {
-      for (std::size_t b = 0; b < 4; ++b)
-      {
-        sum[a][b] += normal[a] * normal[b] / area;
-      }
-    }
-    total += area;
-    this->FacetNormals.push_back(normal);
   }
 }
 
@@ -277,14 +275,14 @@ double PentatopeSmoother::Smallest() const
 }
 
 /** The sum of the directions in which pentatopes become better, over those below a quality. */
-Point<4> PentatopeSmoother::GradientOfWorst(const Point<4>& p, double below) const
+Point<4> PentatopeSmoother::GradientOfWorst(const Point<4>& p, double below)
 {
   Point<4> sum{};
-  for (const MovedPentatope& one : this->Star.Inside())
+  for (MovedPentatope& one : this->Star.Inside())
   {
     if (one.Quality <= below)
     {
-      const Point<4> gradient = one.GradientAt(p);
+      const Point<4> gradient = one.Measured().GradientAt(p);
       const double length = std::sqrt(Dot(gradient, gradient));
       for (std::size_t a = 0; a < 4 && length > 0.0; ++a)
       {
@@ -295,12 +293,12 @@ Point<4> PentatopeSmoother::GradientOfWorst(const Point<4>& p, double below) con
   return sum;
 }
 
-Point<4> PentatopeSmoother::GradientOfSum(const Point<4>& p) const
+Point<4> PentatopeSmoother::GradientOfSum(const Point<4>& p)
 {
   Point<4> sum{};
-  for (const MovedPentatope& one : this->Star.Inside())
+  for (MovedPentatope& one : this->Star.Inside())
   {
-    const Point<4> gradient = one.GradientAt(p);
+    const Point<4> gradient = one.Measured().GradientAt(p);
     for (std::size_t a = 0; a < 4; ++a)
     {
       sum[a] += 2.0 * (1.0 - one.Quality) * gradient[a];
@@ -327,17 +325,11 @@ bool PentatopeSmoother::MayMoveTo(std::uint32_t v, const Point<4>& p) const
 /** Whether all qualities at p are above `floor`, and all bounds are kept. */
 bool PentatopeSmoother::Try(const Point<4>& p, double floor)
 {
-  const std::span<const MovedPentatope> outside = this->Star.Outside();
-  if (std::any_of(outside.begin(), outside.end(),
-        [&p](const MovedPentatope& one) { return !(one.VolumeAt(p) > one.Quality); }))
-  {
-    return false;
-  }
   const std::span<MovedPentatope> inside = this->Star.Inside();
   for (std::size_t k = 0; k < inside.size(); ++k)
   {
     const std::size_t s = k == 0 ? this->FirstTried : k <= this->FirstTried ? k - 1 : k;
-    const PentatopeShape shape = inside[s].ShapeAt(p);
+    const PentatopeShape shape = inside[s].Measured().ShapeAt(p);
     if (!(shape.Quality > floor) || !this->Allows(inside[s], shape))
     {
       this->FirstTried = s;
@@ -345,32 +337,18 @@ bool PentatopeSmoother::Try(const Point<4>& p, double floor)
     }
     this->Tried[s] = shape.Quality;
   }
-  return std::all_of(inside.begin(), inside.end(),
-    [&](const MovedPentatope& one) { return this->KeepsComponents(one, p); });
-}
-
-/** Whether what a pentatope holds is held if the vertex moves to p. */
-bool PentatopeSmoother::KeepsComponents(const MovedPentatope& one, const Point<4>& p) const
-{
-  if (!this->Target.IsHolder(one.Id))
-  {
-    return true;
-  }
-  const std::array<const Point<4>*, 5> before =
-    this->Target.PointsOf(this->Target.CornersOf(one.Id));
-  const Point<4> moved = one.PlaceOf(p);
-  std::array<const Point<4>*, 5> after = before;
-  for (const Point<4>*& corner : after)
-  {
-    corner =
-      std::find(one.Facet.begin(), one.Facet.end(), corner) == one.Facet.end() ? &moved : corner;
-  }
-  return this->Target.Guard()->Keeps(one.Label, before, after);
+  const std::span<MovedPentatope> outside = this->Star.Outside();
+  return std::all_of(outside.begin(), outside.end(),
+           [&p](MovedPentatope& one) { return one.Measured().VolumeAt(p) > one.Quality; }) &&
+    std::all_of(inside.begin(), inside.end(),
+      [&](const MovedPentatope& one)
+      { return this->Target.KeepsComponents(one.Id, one.Vertex, one.PlaceOf(p)); });
 }
 
 bool PentatopeSmoother::Allows(MovedPentatope& one, const PentatopeShape& shape) const
 {
-  if (this->Target.Allows(shape, 0.0, one.Label))
+  const std::int64_t label = this->Target.LabelValues[one.Label];
+  if (this->Rules.Allows(shape, 0.0, label))
   {
     return true;
   }
@@ -378,12 +356,17 @@ bool PentatopeSmoother::Allows(MovedPentatope& one, const PentatopeShape& shape)
   {
     one.OldRatio = one.ShapeAt(this->Start).Ratio;
   }
-  return this->Target.Allows(shape, one.OldRatio, one.Label);
+  return this->Rules.Allows(shape, one.OldRatio, label);
 }
 
 void PentatopeSmoother::Take(std::uint32_t v, const Point<4>& p)
 {
-  this->Target.Move(v, p);
+  this->Target.Points[v] = p;
+  if (const std::uint32_t twin = this->Target.TwinOf(v); twin != None)
+  {
+    Point<4>& other = this->Target.Points[twin];
+    other = { p[0], p[1], p[2], other[3] };
+  }
   for (std::size_t s = 0; s < this->Tried.size(); ++s)
   {
     this->Star.Inside()[s].Quality = this->Tried[s];
@@ -394,7 +377,7 @@ void PentatopeSmoother::Finish() const
 {
   for (const MovedPentatope& one : this->Star.Inside())
   {
-    this->Target.SetQuality(one.Id, one.Quality);
+    this->Target.Scores[one.Id] = one.Quality;
   }
 }
 

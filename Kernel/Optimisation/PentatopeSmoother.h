@@ -8,7 +8,7 @@
 #define voxplex_PentatopeSmoother_h
 
 #include "Optimisation/MoveLimits.h"
-#include "Optimisation/PentatopeComplex.h"
+#include "Optimisation/PentatopeRules.h"
 #include "Optimisation/PentatopeStar.h"
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace voxplex
 /**
  * @brief Moves single vertices uphill along the gradient of a measure of the pentatopes around them.
  *
- * A step is taken only if the measure grows and PentatopeComplex::Allows() the result.
+ * A step is taken only if the measure grows and PentatopeRules::Allows() the result.
  * Vertices of interfaces move along them: in the directions that are tangential to the facets around
  * them. If facets have several normals, at a crease or where interfaces meet, all of these are
  * excluded. If they have one, the moves change no label's volume. Such a vertex moves by at most half
@@ -34,9 +34,10 @@ class PentatopeSmoother
 {
 public:
   /** @param originals the points before any were moved */
-  PentatopeSmoother(
-    PentatopeComplex& complex, const MoveLimits<4>& limits, std::span<const Point<4>> originals)
+  PentatopeSmoother(PentatopeComplex& complex, const PentatopeRules& rules,
+    const MoveLimits<4>& limits, std::span<const Point<4>> originals)
     : Target(complex)
+    , Rules(rules)
     , Limits(limits)
     , Originals(originals)
   {
@@ -58,23 +59,25 @@ public:
    */
   bool RaiseSum(std::uint32_t v, double floor);
 
+  /** The pentatopes around the vertex that was tried last, and its twin. */
+  std::span<const MovedPentatope> Around() const { return this->Star.Both(); }
+
 private:
   bool Begin(std::uint32_t v);
   void GatherNormals(std::uint32_t v);
-  void AddNormals(std::uint32_t v, std::array<Point<4>, 4>& sum, double& total);
   Point<4> SumOfNormals(const Point<4>& side) const;
   void Project(Point<4>& direction) const;
   double Smallest() const;
-  Point<4> GradientOfWorst(const Point<4>& p, double below) const;
-  Point<4> GradientOfSum(const Point<4>& p) const;
+  Point<4> GradientOfWorst(const Point<4>& p, double below);
+  Point<4> GradientOfSum(const Point<4>& p);
   bool MayMoveTo(std::uint32_t v, const Point<4>& p) const;
   bool Allows(MovedPentatope& one, const PentatopeShape& shape) const;
-  bool KeepsComponents(const MovedPentatope& one, const Point<4>& p) const;
   bool Try(const Point<4>& p, double floor);
   void Take(std::uint32_t v, const Point<4>& p);
   void Finish() const;
 
   PentatopeComplex& Target;
+  const PentatopeRules& Rules;
   const MoveLimits<4>& Limits;
   const std::span<const Point<4>> Originals;
   PentatopeStar Star;

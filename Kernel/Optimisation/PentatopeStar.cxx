@@ -122,58 +122,56 @@ Point<4> MovedPentatope::GradientAt(const Point<4>& p) const
 }
 
 //------------------------------------------------------------------------------------------------
-void PentatopeStar::Gather(const PentatopeComplex& complex, std::uint32_t v)
+bool PentatopeStar::Gather(const PentatopeComplex& complex, std::uint32_t v)
 {
   this->All.clear();
-  this->NumberInside = 0;
   this->Shortest = std::numeric_limits<double>::infinity(); // squared, until all are there
   const std::uint32_t twin = complex.TwinOf(v);
-  const double shift = twin == None ? 0.0 : complex.PointOf(twin)[3] - complex.PointOf(v)[3];
+  const auto everywhere = [](std::uint32_t) { return true; };
+  bool isWhole = true;
+  for (std::size_t k = 0; k < (twin == None ? 1 : 2); ++k)
+  {
+    const std::uint32_t of = k == 0 ? v : twin;
+    complex.GatherStar(of, this->Stars[k], everywhere);
+    isWhole = isWhole && this->Stars[k].Cells.size() == complex.Degrees[of];
+  }
   for (const bool inside : { true, false })
   {
-    const auto addStar = [&](std::uint32_t of, double shiftOf)
+    for (std::size_t k = 0; k < (twin == None ? 1 : 2); ++k)
     {
-      for (const std::uint32_t s : complex.StarOf(of))
+      const VertexStar<4>& star = this->Stars[k];
+      const double shift = complex.Points[star.Vertex][3] - complex.Points[v][3];
+      for (std::size_t s = 0; s < star.Cells.size(); ++s)
       {
-        if ((complex.LabelOf(s) != 0) == inside)
+        if ((complex.LabelOf(star.Cells[s]) != 0) == inside)
         {
-          this->Add(complex, s, of, shiftOf);
+          this->Add(complex, star.Cells[s], star.Corners[s], shift);
         }
       }
-    };
-    addStar(v, 0.0);
-    if (twin != None)
-    {
-      addStar(twin, shift);
     }
     this->NumberInside = inside ? this->All.size() : this->NumberInside;
   }
   this->Shortest = std::sqrt(this->Shortest);
+  return isWhole;
 }
 
-void PentatopeStar::Add(
-  const PentatopeComplex& complex, std::uint32_t s, std::uint32_t v, double shift)
+/** @param corners the vertex first */
+void PentatopeStar::Add(const PentatopeComplex& complex, std::uint32_t s,
+  const PentatopeComplex::Vertices& corners, double shift)
 {
-  const Point<4>& vertex = complex.PointOf(v);
   MovedPentatope& one = this->All.emplace_back();
   one.Id = s;
+  one.Vertex = corners[0];
   one.Label = complex.LabelOf(s);
-  one.Quality = complex.QualityOf(s);
+  one.Quality = complex.Scores[s];
   one.OldRatio = -1.0;
+  one.Area = 0.0;
   one.Shift = shift;
-  const PentatopeComplex::Vertices& corners = complex.CornersOf(s);
-  std::size_t opposite = 0;
-  for (std::size_t i = 0, k = 0; i < corners.size(); ++i)
+  for (std::size_t k = 0; k < 4; ++k)
   {
-    if (corners[i] == v)
-    {
-      opposite = i;
-      continue;
-    }
-    one.Facet[k] = &complex.PointOf(corners[i]);
-    this->Shortest = std::min(this->Shortest, Distance2(*one.Facet[k++], vertex));
+    one.Facet[k] = &complex.Points[corners[k + 1]];
+    this->Shortest = std::min(this->Shortest, Distance2(*one.Facet[k], complex.Points[corners[0]]));
   }
-  one.MeasureFacet(opposite);
 }
 
 } // namespace voxplex

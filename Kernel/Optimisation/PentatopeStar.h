@@ -7,7 +7,8 @@
 #ifndef voxplex_PentatopeStar_h
 #define voxplex_PentatopeStar_h
 
-#include "Optimisation/PentatopeComplex.h"
+#include "Base/UninitialisedVector.h"
+#include "Optimisation/Complex.h"
 
 #include <array>
 #include <cstddef>
@@ -32,22 +33,33 @@ namespace voxplex
 struct MovedPentatope
 {
   std::uint32_t Id;
-  LabelId Label;
+  std::uint32_t Vertex;
+  PentatopeComplex::Label Label;
   double Quality;  ///< at the current place; of label 0: the volume that it keeps
   double OldRatio; ///< radius-edge ratio at the first place; below 0 if it is not known yet
   std::array<const Point<4>*, 4> Facet;
   Point<4> Centre;      ///< c
   Point<4> Normal;      ///< n
   double Radius2;       ///< r^2
-  double Area;          ///< A
+  double Area;          ///< A; 0: the facet has not been measured
   double ShortestEdge2; ///< of the facet
-  double Shift = 0.0;   ///< the twin's time minus that of the vertex; 0 at the vertex itself
+  double Shift;         ///< the twin's time minus that of the vertex; 0 at the vertex itself
 
   /**
    * Sets the circumcentre of the facet, the normal and the sizes. The facet has the corners of a positively
    * oriented pentatope in their order, without corner `opposite`, which is on the normal's side.
    */
   void MeasureFacet(std::size_t opposite);
+
+  /** Measures the facet opposite to the first corner, unless it has been. All below needs that. */
+  MovedPentatope& Measured()
+  {
+    if (this->Area == 0.0)
+    {
+      this->MeasureFacet(0);
+    }
+    return *this;
+  }
 
   double VolumeAt(const Point<4>& p) const
   {
@@ -63,28 +75,35 @@ struct MovedPentatope
   Point<4> PlaceOf(const Point<4>& p) const { return { p[0], p[1], p[2], p[3] + this->Shift }; }
 };
 
-/** @brief The pentatopes around a vertex and its twin: first those of the mesh, then those outside. */
+/**
+ * @brief The pentatopes around a vertex and its twin: first those of the mesh, then those outside.
+ *
+ * Each is to be Measured() when it is needed: most trials fail at one of the first.
+ */
 class PentatopeStar
 {
 public:
-  /** Gathers the star of a vertex. All of its pentatopes must be positively oriented. */
-  void Gather(const PentatopeComplex& complex, std::uint32_t v);
+  /**
+   * Gathers the star of a vertex. All of its pentatopes must be positively oriented.
+   * @return false if pieces of the star share no facet, so that some may be missing
+   */
+  bool Gather(const PentatopeComplex& complex, std::uint32_t v);
 
   std::span<MovedPentatope> Inside() { return { this->All.data(), this->NumberInside }; }
   std::span<const MovedPentatope> Inside() const
   {
     return { this->All.data(), this->NumberInside };
   }
-  std::span<const MovedPentatope> Outside() const
-  {
-    return std::span(this->All).subspan(this->NumberInside);
-  }
+  std::span<MovedPentatope> Outside() { return std::span(this->All).subspan(this->NumberInside); }
+  std::span<const MovedPentatope> Both() const { return this->All; }
   double ShortestEdge() const { return this->Shortest; } ///< of those at the vertex and its twin
 
 private:
-  void Add(const PentatopeComplex& complex, std::uint32_t s, std::uint32_t v, double shift);
+  void Add(const PentatopeComplex& complex, std::uint32_t s,
+    const PentatopeComplex::Vertices& corners, double shift);
 
-  std::vector<MovedPentatope> All;
+  std::array<VertexStar<4>, 2> Stars; ///< of the vertex and its twin
+  UninitialisedVector<MovedPentatope> All;
   std::size_t NumberInside = 0;
   double Shortest = 0.0;
 };

@@ -7,7 +7,7 @@
 #ifndef voxplex_Rooms_h
 #define voxplex_Rooms_h
 
-#include "Optimisation/TetrahedralComplex.h"
+#include "Optimisation/Complex.h"
 
 #include <cstdint>
 #include <span>

@@ -136,7 +136,7 @@ bool Smoother::Insert(std::uint32_t t, unsigned i, unsigned j)
   const TetrahedralComplex& mesh = this->Target.Mesh();
   EdgeRing& ring = this->Ring;
   const std::uint32_t v = this->Target.SpareVertex();
-  if (v == TetrahedralComplex::None || !this->Target.GatherRing(t, i, j, longestRing, ring) ||
+  if (v == TetrahedralComplex::None || !GatherRing(this->Target, t, i, j, longestRing, ring) ||
     !ring.Closed)
   {
     return false;

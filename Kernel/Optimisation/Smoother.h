@@ -68,7 +68,7 @@ class Smoother
 {
 public:
   /** @param reach how far vertices may be moved off interfaces */
-  Smoother(Patch& patch, const Domain<3>& domain, const InterfaceRules& rules, double reach)
+  Smoother(Patch<3>& patch, const Domain<3>& domain, const InterfaceRules& rules, double reach)
     : Target(patch)
     , Image(domain)
     , Rules(rules)
@@ -137,13 +137,13 @@ private:
   bool Project(const Point<3>& raw, double length, Point<3>& p) const;
   bool FanAllows(const Point<3>& p) const;
 
-  Patch& Target;
+  Patch<3>& Target;
   const Domain<3>& Image;
   const InterfaceRules Rules;
   const double Reach;
   SmoothingStatistics Done;
 
-  VertexStar Star;
+  VertexStar<3> Star;
   std::vector<Point<3>> Opposite; ///< the three other points of each tetrahedron of the star
   std::vector<float> Scores;      ///< at the current point
   std::vector<float> Tried;       ///< at the tried point
@@ -159,7 +159,7 @@ private:
   EdgeRing Ring;
   std::vector<std::uint32_t> Cavity;
   std::vector<CavityFacet> Facets; ///< of Cavity
-  std::vector<NewTetrahedron> Fresh;
+  std::vector<NewCell<3>> Fresh;
 };
 
 } // namespace voxplex

@@ -382,7 +382,7 @@ TEST_P(OptimisedPhantom, SmoothingNeverLowersTheWorstOfAStar)
   const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
   Patch patch(complex, blocks, 0);
   Smoother smoother(patch, this->Domain, InterfaceRules(30.0, 20.0, 30.0), 0.05);
-  VertexStar star;
+  VertexStar<3> star;
   const auto worst = [&]
   {
     float score = 2.0f;

@@ -190,7 +190,7 @@ TEST(Patch, FindsRingsAndStars)
     const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
     Patch patch(complex, blocks, 0);
     EdgeRing ring;
-    ASSERT_TRUE(patch.GatherRing(0, complex.IndexOf(0, 0), complex.IndexOf(0, 1), 10, ring));
+    ASSERT_TRUE(GatherRing(patch, 0, complex.IndexOf(0, 0), complex.IndexOf(0, 1), 10, ring));
     EXPECT_TRUE(ring.Closed);
     EXPECT_EQ(ring.Cells.size(), n);
     EXPECT_EQ(ring.Link.size(), n);
@@ -198,9 +198,9 @@ TEST(Patch, FindsRingsAndStars)
     {
       EXPECT_GT(complex.Score({ ring.A, ring.B, ring.Link[k], ring.Link[(k + 1) % n] }), 0.0);
     }
-    EXPECT_FALSE(patch.GatherRing(0, complex.IndexOf(0, 0), complex.IndexOf(0, 1), n - 1, ring));
+    EXPECT_FALSE(GatherRing(patch, 0, complex.IndexOf(0, 0), complex.IndexOf(0, 1), n - 1, ring));
     // From a to a point of the circle: two tetrahedra, open.
-    ASSERT_TRUE(patch.GatherRing(0, complex.IndexOf(0, 0), complex.IndexOf(0, 3), 10, ring));
+    ASSERT_TRUE(GatherRing(patch, 0, complex.IndexOf(0, 0), complex.IndexOf(0, 3), 10, ring));
     EXPECT_FALSE(ring.Closed);
     EXPECT_EQ(ring.Cells.size(), 2u);
     EXPECT_EQ(ring.Link.size(), 3u);
@@ -208,7 +208,7 @@ TEST(Patch, FindsRingsAndStars)
     {
       EXPECT_GT(complex.Score({ ring.A, ring.B, ring.Link[k], ring.Link[k + 1] }), 0.0);
     }
-    VertexStar star;
+    VertexStar<3> star;
     ASSERT_TRUE(patch.GatherStar(0, star));
     EXPECT_EQ(star.Cells.size(), n);
     ASSERT_TRUE(patch.GatherStar(2, star));
@@ -229,8 +229,8 @@ TEST(Patch, LeavesOtherBlocksAlone)
   blocks[4] = 1;
   Patch patch(complex, blocks, 0);
   EdgeRing ring;
-  VertexStar star;
-  EXPECT_FALSE(patch.GatherRing(0, complex.IndexOf(0, 0), complex.IndexOf(0, 1), 10, ring));
+  VertexStar<3> star;
+  EXPECT_FALSE(GatherRing(patch, 0, complex.IndexOf(0, 0), complex.IndexOf(0, 1), 10, ring));
   EXPECT_FALSE(patch.GatherStar(0, star));
 }
 
@@ -243,7 +243,7 @@ TEST(Patch, FindsStarsThatShareNoFacet)
   TetrahedralComplex complex(mesh, ShapeScore(15.0, 155.0, 2.5), 1, {});
   const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
   Patch patch(complex, blocks, 0);
-  VertexStar star;
+  VertexStar<3> star;
   EXPECT_FALSE(patch.GatherStar(0, star));
   const std::uint32_t wanted[] = { 0 };
   patch.FindStars(wanted);
@@ -258,8 +258,8 @@ TEST(Patch, RefusesWhatItHasNoRoomFor)
   const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
   Patch patch(complex, blocks, 0);
   const std::uint32_t old[] = { 0 };
-  const NewTetrahedron one = { complex.Cells[0].V, 1 };
-  const NewTetrahedron two[] = { one, one };
+  const NewCell<3> one = { complex.Cells[0].V, 1 };
+  const NewCell<3> two[] = { one, one };
   EXPECT_FALSE(patch.Replace(old, two));
   EXPECT_TRUE(patch.Replace(old, std::span(two).first(1)));
   SimplexMesh<3> same;

@@ -194,24 +194,25 @@ TEST(PentatopeOptimiser, StarsMeasureMovedPentatopes)
   const LabelImage<4> image = ImageOf(PulsatingBalls(9, 2.0));
   const ImageDomain<4> domain(image, 1.0);
   const SimplexMesh<4> mesh = Mesh(image, UsualOptions(2.5), false).Mesh;
-  const PentatopeComplex complex(mesh, {}, image, domain, {}, 1, {});
+  const PentatopeComplex complex(mesh, {}, 1, {});
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   PentatopeStar star;
   std::size_t positive = 0;
   for (std::uint32_t v = 0; v < mesh.Points.size(); v += 7)
   {
-    star.Gather(complex, v);
-    ASSERT_EQ(star.Inside().size(), complex.StarOf(v).size());
+    ASSERT_TRUE(star.Gather(complex, v));
+    ASSERT_EQ(star.Inside().size(), complex.Degrees[v]);
     Point<4> p = mesh.Points[v];
     for (double& x : p)
     {
       x += 0.2 * star.ShortestEdge() * number(generator);
     }
-    for (const MovedPentatope& one : star.Inside())
+    for (MovedPentatope& one : star.Inside())
     {
-      std::array<const Point<4>*, 5> corners = complex.PointsOf(complex.CornersOf(one.Id));
-      *std::find(corners.begin(), corners.end(), &complex.PointOf(v)) = &p;
+      std::array<const Point<4>*, 5> corners = complex.PointsOf(complex.Cells[one.Id].V);
+      one.Measured();
+      *std::find(corners.begin(), corners.end(), &complex.Points[v]) = &p;
       const PentatopeShape shape = ShapeOf(corners);
       const PentatopeShape moved = one.ShapeAt(p);
       EXPECT_NEAR(one.VolumeAt(p), SignedVolume<4>(corners.data()), 1e-9);
@@ -270,12 +271,12 @@ TEST(PentatopeOptimiser, FlatPentatopesGrowToTheRightSide)
     }
     mesh.Labels = { 1 };
     mesh.Points[4] = { 0.25, 0.25, 0.25, 0.25 - 1e-9 }; // behind the facet of the others
-    const PentatopeComplex complex(mesh, {}, image, domain, {}, 1, {});
+    const PentatopeComplex complex(mesh, {}, 1, {});
     PentatopeStar star;
     star.Gather(complex, 4);
     ASSERT_EQ(star.Inside().size(), 1u);
-    EXPECT_NEAR(star.Inside()[0].VolumeAt(regular[4]), 3.0 / 24.0, 1e-12);
-    EXPECT_GT(Dot(star.Inside()[0].GradientAt(mesh.Points[4]), regular[4]), 0.0);
+    EXPECT_NEAR(star.Inside()[0].Measured().VolumeAt(regular[4]), 3.0 / 24.0, 1e-12);
+    EXPECT_GT(Dot(star.Inside()[0].Measured().GradientAt(mesh.Points[4]), regular[4]), 0.0);
     std::rotate(corners.begin(), corners.begin() + 1, corners.end());
   }
 }
@@ -321,7 +322,7 @@ TEST(PentatopeOptimiser, LeavesWhatIsOutsidePositive)
   const Result before = Mesh(image, SpaceTimeOptions(2.0), false);
   // A pentatope outside, on a facet of the boundary. Its fifth point nearly lies in the facet.
   SimplexMesh<4> mesh = before.Mesh;
-  Surroundings outside;
+  Surroundings<4> outside;
   for (std::size_t f = 0; f < mesh.Facets.size(); f += 3)
   {
     if (mesh.FacetLabels[f][1] != 0)
@@ -419,30 +420,33 @@ TEST(PentatopeFlips, ExchangeTheFillingsOfSixPoints)
     }
     SimplexMesh<4>& mesh = fillings[0];
     ASSERT_NEAR(WholeVolume(mesh), WholeVolume(fillings[1]), 1e-9 * WholeVolume(mesh));
-    PentatopeComplex complex(mesh, {}, image, domain, bounds, 1, {});
+    PentatopeComplex complex(mesh, {}, 1, {});
+    const PentatopeRules rules(domain, bounds);
     for (std::uint32_t s = 0; s < mesh.Simplices.size(); ++s)
     {
-      const PentatopeFlip flip = FindFlip(complex, s);
+      const PentatopeFlip flip = FindFlip(complex, rules, s);
       ASSERT_EQ(flip.NumberOfOld, mesh.Simplices.size());
       ASSERT_EQ(flip.NumberOfNew, fillings[1].Simplices.size());
       EXPECT_NEAR(flip.Before, Qualities(mesh).front(), 1e-9);
       EXPECT_NEAR(flip.After, Qualities(fillings[1]).front(), 1e-9);
     }
-    PentatopeComplex good(fillings[1], {}, image, domain, bounds, 1, {});
-    EXPECT_EQ(FindFlip(good, 0).NumberOfOld, 0u) << "it would lower the worst";
+    const PentatopeComplex good(fillings[1], {}, 1, {});
+    EXPECT_EQ(FindFlip(good, rules, 0).NumberOfOld, 0u) << "it would lower the worst";
     PentatopeBounds strict;
     strict.RadiusEdgeRatio = 0.1;
-    PentatopeComplex bounded(mesh, {}, image, domain, strict, 1, {});
-    const bool getsRounder = FindFlip(bounded, 0).NumberOfOld != 0;
+    const bool getsRounder = FindFlip(complex, PentatopeRules(domain, strict), 0).NumberOfOld != 0;
 
     ++flips[mesh.Simplices.size()];
-    MakeFlip(complex, FindFlip(complex, 0));
+    const PentatopeFlip flip = FindFlip(complex, rules, 0);
+    Patch patch(complex, {}, 0);
+    ASSERT_TRUE(Replace(complex, patch, { flip.Old.data(), flip.NumberOfOld },
+      { flip.New.data(), flip.NumberOfNew }));
     double largestBefore = 0.0;
     for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
     {
       largestBefore = std::max(largestBefore, RadiusEdge(mesh, s));
     }
-    complex.CopyTo(mesh);
+    complex.Write(mesh);
     double largestAfter = 0.0;
     for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
     {
@@ -465,11 +469,13 @@ TEST(PentatopeFlips, LeaveInterfacesAlone)
   const LabelImage<4> image = ImageOf(PulsatingBalls(9, 2.0));
   const ImageDomain<4> domain(image, 1.0);
   const SimplexMesh<4> mesh = Mesh(image, SpaceTimeOptions(2.5), false).Mesh;
-  PentatopeComplex complex(mesh, {}, image, domain, {}, 1, {});
+  const PentatopeComplex complex(mesh, {}, 1, {});
+  const PentatopeBounds bounds;
+  const PentatopeRules rules(domain, bounds);
   std::size_t found = 0;
   for (std::uint32_t s = 0; s < mesh.Simplices.size(); ++s)
   {
-    const PentatopeFlip flip = FindFlip(complex, s);
+    const PentatopeFlip flip = FindFlip(complex, rules, s);
     found += flip.NumberOfOld != 0;
     for (std::size_t k = 0; k < flip.NumberOfOld; ++k)
     {
@@ -514,10 +520,9 @@ TEST(PentatopeFlips, LeaveFacetsOnTimePlanesAlone)
       mesh.Simplices.push_back(Without(points, left));
       mesh.Labels.push_back(1);
     }
-    PentatopeComplex free(mesh, {}, image, domain, bounds, 1, {});
-    found += FindFlip(free, 0).NumberOfOld == 2 ? 1 : 0;
-    PentatopeComplex kept(mesh, {}, image, domain, withPlane, 1, {});
-    ASSERT_EQ(FindFlip(kept, 0).NumberOfOld, 0u);
+    const PentatopeComplex complex(mesh, {}, 1, {});
+    found += FindFlip(complex, PentatopeRules(domain, bounds), 0).NumberOfOld == 2 ? 1 : 0;
+    ASSERT_EQ(FindFlip(complex, PentatopeRules(domain, withPlane), 0).NumberOfOld, 0u);
   }
   EXPECT_GT(found, 20u);
 }

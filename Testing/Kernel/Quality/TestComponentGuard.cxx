@@ -5,7 +5,7 @@
 #include "MeshChecks.h"
 #include "MeshRuns.h"
 #include "Optimisation/MeshOptimiser.h"
-#include "Optimisation/PentatopeComplex.h"
+#include "Optimisation/Patch.h"
 #include "Phantoms.h"
 #include "Quality/ComponentGuard.h"
 #include "Quality/LostComponents.h"
@@ -219,7 +219,6 @@ TEST(ComponentGuard, PentatopesAreHandedOver)
   scalars[4 + 9 * (4 + 9 * (4 + 9 * 4))] = 1; // one voxel
   const auto image = LabelImage<4>::FromScalars<std::uint8_t>(
     scalars, GridGeometry<4>::Orthogonal({ 9, 9, 9, 9 }, { 1.0, 1.0, 1.0, 1.0 }));
-  const ImageDomain<4> domain(image, 1.0);
   const Components<4> components(image);
   const Point<4> centre = image.Grid().ToFrame({ 4.0, 4.0, 4.0, 4.0 });
   SimplexMesh<4> mesh; // two pentatopes in the voxel and far away, and the points of others
@@ -239,19 +238,20 @@ TEST(ComponentGuard, PentatopesAreHandedOver)
 
   ComponentGuard<4> guard(image);
   guard.Add(components, { true });
-  PentatopeBounds bounds;
-  bounds.Guard = &guard;
-  PentatopeComplex complex(mesh, {}, image, domain, bounds, 1, {});
+  PentatopeComplex complex(mesh, {}, 1, {});
+  complex.Protect(guard, mesh, 1, {});
+  Patch patch(complex, {}, 0);
+  patch.NeedSlots(2);
   EXPECT_TRUE(complex.IsHolder(0));
   EXPECT_FALSE(complex.IsHolder(1));
   const std::array<std::uint32_t, 1> holder = { 0 };
   const std::array<std::uint32_t, 1> other = { 1 };
-  const std::array<PentatopeComplex::Vertices, 1> far = { corners[3] };
-  const std::array<PentatopeComplex::Vertices, 2> both = { corners[3], corners[2] };
-  EXPECT_TRUE(complex.HandOver(other, far));
-  EXPECT_FALSE(complex.HandOver(holder, far));
+  const std::array<NewCell<4>, 1> far = { NewCell<4>{ corners[3], 1 } };
+  const std::array<NewCell<4>, 2> both = { far[0], NewCell<4>{ corners[2], 1 } };
+  EXPECT_TRUE(patch.Replace(other, far));
+  EXPECT_FALSE(patch.Replace(holder, far));
   EXPECT_TRUE(complex.IsHolder(0)) << "nothing has changed";
-  ASSERT_TRUE(complex.HandOver(holder, both)); // the first takes its place, the second is appended
+  ASSERT_TRUE(patch.Replace(holder, both)); // the first takes its place
   EXPECT_FALSE(complex.IsHolder(0));
-  EXPECT_TRUE(complex.IsHolder(2));
+  EXPECT_TRUE(complex.IsHolder(complex.Hosts[corners[2][0]]));
 }

@@ -5,7 +5,8 @@
 #define voxplex_PentatopeCases_h
 
 #include "Geometry/SimplexQuality.h"
-#include "Optimisation/PentatopeComplex.h"
+#include "Optimisation/Patch.h"
+#include "Optimisation/PentatopeRules.h"
 #include "SpaceTimeCases.h"
 
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -59,6 +61,28 @@ inline PentatopeComplex::Vertices Without(const std::vector<Point<4>>& points, s
     std::swap(v[0], v[1]);
   }
   return v;
+}
+
+/** Replaces pentatopes of one label. @param added takes the place of None in new ones */
+inline bool Replace(PentatopeComplex& complex, Patch<4>& patch, std::span<const std::uint32_t> old,
+  std::span<const PentatopeComplex::Vertices> vertices, std::uint32_t added = None)
+{
+  std::vector<NewCell<4>> fresh;
+  for (PentatopeComplex::Vertices v : vertices)
+  {
+    std::replace(v.begin(), v.end(), None, added);
+    fresh.push_back({ v, complex.LabelOf(old.front()) });
+  }
+  patch.NeedSlots(fresh.size());
+  return patch.Replace(old, fresh);
+}
+
+/** Inserts a vertex at a place. */
+inline std::uint32_t AddVertex(PentatopeComplex& complex, const Point<4>& place)
+{
+  complex.AddVertices(1);
+  complex.Points.back() = place;
+  return static_cast<std::uint32_t>(complex.Points.size() - 1);
 }
 
 } // namespace voxplex::checks

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Optimisation/TetrahedralComplex.h"
+#include "Optimisation/Complex.h"
 
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <mutex>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 
@@ -20,24 +22,8 @@ namespace
 
 constexpr std::size_t Grain = 16384;
 
-/** The vertices of facet i, sorted. */
-std::array<std::uint32_t, 3> SortedFacet(const TetrahedralComplex::Vertices& v, unsigned i)
-{
-  std::array<std::uint32_t, 3> f = { v[(i + 1) & 3], v[(i + 2) & 3], v[(i + 3) & 3] };
-  if (f[0] > f[1])
-  {
-    std::swap(f[0], f[1]);
-  }
-  if (f[1] > f[2])
-  {
-    std::swap(f[1], f[2]);
-  }
-  if (f[0] > f[1])
-  {
-    std::swap(f[0], f[1]);
-  }
-  return f;
-}
+/** Cells around the mesh keep at least this part of their volume. */
+constexpr double VolumeKeptOutside = 0.1;
 
 /** Raises a number, or None, that other threads may raise, too. */
 void Raise(std::uint32_t& number, std::uint32_t to)
@@ -45,8 +31,8 @@ void Raise(std::uint32_t& number, std::uint32_t to)
   // Relaxed: the end of the loop orders it before its readers.
   const std::atomic_ref<std::uint32_t> shared(number);
   std::uint32_t old = shared.load(std::memory_order_relaxed);
-  while ((old == TetrahedralComplex::None || old < to) &&
-    !shared.compare_exchange_weak(old, to, std::memory_order_relaxed))
+  while (
+    (old == None || old < to) && !shared.compare_exchange_weak(old, to, std::memory_order_relaxed))
   {
   }
 }
@@ -54,12 +40,15 @@ void Raise(std::uint32_t& number, std::uint32_t to)
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-TetrahedralComplex::TetrahedralComplex(const SimplexMesh<3>& mesh, const ShapeScore& score,
-  unsigned threads, const std::stop_token& stop, std::span<const float> scores,
-  const SpareRoom& spare)
+template <int D>
+Complex<D>::Complex(const SimplexMesh<D>& mesh, const ShapeFunction& score, unsigned threads,
+  const std::stop_token& stop, std::span<const ScoreValue> scores, const SpareRoom& spare,
+  const Surroundings<D>& outside)
   : Shape(score)
+  , FirstOutside(mesh.Points.size())
+  , EndOfOutside(mesh.Points.size() + outside.Points.size())
 {
-  const std::size_t points = mesh.Points.size();
+  const std::size_t points = this->EndOfOutside;
   const auto fill = [&](auto& of, auto value)
   {
     of.reserve(points + spare.Vertices);
@@ -67,11 +56,12 @@ TetrahedralComplex::TetrahedralComplex(const SimplexMesh<3>& mesh, const ShapeSc
   };
   this->Points.reserve(points + spare.Vertices);
   this->Points.assign(mesh.Points.begin(), mesh.Points.end());
+  this->Points.insert(this->Points.end(), outside.Points.begin(), outside.Points.end());
   fill(this->Kinds, VertexRole::Free);
   fill(this->Hosts, None);
   fill(this->Degrees, 0u);
   fill(this->Changes, 0u);
-  const std::size_t cells = mesh.Simplices.size();
+  const std::size_t cells = mesh.Simplices.size() + outside.Simplices.size();
   const auto resize = [&](auto& of)
   {
     of.reserve(cells + spare.Cells);
@@ -81,7 +71,7 @@ TetrahedralComplex::TetrahedralComplex(const SimplexMesh<3>& mesh, const ShapeSc
   resize(this->Labels);
   resize(this->Scores);
   this->FindLabels(mesh, threads, stop);
-  this->CopyCells(mesh, threads, stop);
+  this->CopyCells(mesh, outside, threads, stop);
   if (scores.empty())
   {
     this->ScoreCells(threads, stop);
@@ -92,10 +82,39 @@ TetrahedralComplex::TetrahedralComplex(const SimplexMesh<3>& mesh, const ShapeSc
   }
   this->Connect(threads, stop);
   this->FindKinds(threads, stop);
+  this->Twins.resize(mesh.Twins.empty() ? 0 : points, None);
+  for (const auto& [first, last] : mesh.Twins)
+  {
+    this->Twins[first] = last;
+    this->Twins[last] = first;
+  }
 }
 
-void TetrahedralComplex::FindLabels(
-  const SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop)
+template <int D>
+void Complex<D>::Protect(ComponentGuard<D>& guard, const SimplexMesh<D>& mesh, unsigned threads,
+  const std::stop_token& stop)
+{
+  this->Guard = &guard;
+  this->AreHolders = guard.FindHolders(mesh, threads, stop);
+  this->AreHolders.resize(this->AreHolders.empty() ? 0 : this->Cells.size());
+}
+
+template <int D>
+bool Complex<D>::KeepsComponents(std::uint32_t t, std::uint32_t v, const Point<D>& to) const
+{
+  if (!this->IsHolder(t))
+  {
+    return true;
+  }
+  const auto before = this->PointsOf(this->Cells[t].V);
+  auto after = before;
+  after[this->IndexOf(t, v)] = &to;
+  return this->Guard->Keeps(this->LabelInImage(this->Labels[t]), before, after);
+}
+
+template <int D>
+void Complex<D>::FindLabels(
+  const SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop)
 {
   const auto sort = [](std::vector<std::int64_t>& values)
   {
@@ -126,8 +145,9 @@ void TetrahedralComplex::FindLabels(
   this->LabelValues.insert(this->LabelValues.end(), all.begin(), all.end());
 }
 
-void TetrahedralComplex::CopyCells(
-  const SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop)
+template <int D>
+void Complex<D>::CopyCells(const SimplexMesh<D>& mesh, const Surroundings<D>& outside,
+  unsigned threads, const std::stop_token& stop)
 {
   const bool isAlone = NumberOfThreads(threads) == 1;
   ParallelFor(
@@ -138,16 +158,19 @@ void TetrahedralComplex::CopyCells(
       Label index = 0;
       for (std::size_t t = first; t < end; ++t)
       {
-        this->Cells[t] = { mesh.Simplices[t], { None, None, None, None } };
-        if (mesh.Labels[t] != last)
+        const bool isInMesh = t < mesh.Simplices.size();
+        this->Cells[t].V =
+          isInMesh ? mesh.Simplices[t] : outside.Simplices[t - mesh.Simplices.size()];
+        this->Cells[t].N.fill(None);
+        if (const std::int64_t value = isInMesh ? mesh.Labels[t] : 0; value != last)
         {
-          last = mesh.Labels[t];
-          index = static_cast<Label>(
-            std::lower_bound(this->LabelValues.begin() + 1, this->LabelValues.end(), last) -
-            this->LabelValues.begin());
+          last = value;
+          const auto begin = this->LabelValues.begin();
+          const auto found = std::lower_bound(begin + 1, this->LabelValues.end(), last);
+          index = isInMesh ? static_cast<Label>(found - begin) : 0;
         }
         this->Labels[t] = index;
-        for (const std::uint32_t v : mesh.Simplices[t])
+        for (const std::uint32_t v : this->Cells[t].V)
         {
           if (isAlone)
           {
@@ -166,7 +189,8 @@ void TetrahedralComplex::CopyCells(
     stop);
 }
 
-void TetrahedralComplex::ScoreCells(unsigned threads, const std::stop_token& stop)
+template <int D>
+void Complex<D>::ScoreCells(unsigned threads, const std::stop_token& stop)
 {
   ParallelFor(
     0, this->Cells.size(), Grain, threads,
@@ -174,13 +198,17 @@ void TetrahedralComplex::ScoreCells(unsigned threads, const std::stop_token& sto
     {
       for (std::size_t t = first; t < end; ++t)
       {
-        this->Scores[t] = static_cast<float>(this->Score(this->Cells[t].V));
+        const Vertices& v = this->Cells[t].V;
+        this->Scores[t] = static_cast<ScoreValue>(this->Labels[t] != 0
+            ? this->Score(v)
+            : VolumeKeptOutside * SignedVolume<D>(this->PointsOf(v).data()));
       }
     },
     stop);
 }
 
-void TetrahedralComplex::AddCells(std::size_t number)
+template <int D>
+void Complex<D>::AddCells(std::size_t number)
 {
   const std::size_t old = this->Cells.size();
   this->Cells.resize(old + number);
@@ -190,11 +218,12 @@ void TetrahedralComplex::AddCells(std::size_t number)
   for (std::size_t t = old; t < this->Cells.size(); ++t)
   {
     this->Cells[t].V[0] = None;
-    this->Scores[t] = 1.0f;
+    this->Scores[t] = 1;
   }
 }
 
-void TetrahedralComplex::AddVertices(std::size_t number)
+template <int D>
+void Complex<D>::AddVertices(std::size_t number)
 {
   const std::size_t size = this->Points.size() + number;
   this->Points.resize(size);
@@ -203,16 +232,38 @@ void TetrahedralComplex::AddVertices(std::size_t number)
   this->Hosts.resize(size, None);
   this->Degrees.resize(size, 0);
   this->Changes.resize(size, 0);
+  this->Twins.resize(this->Twins.empty() ? 0 : size, None);
 }
 
-/**
- * Facets are listed at their smallest vertex. Two facets of a list are the same if their other
- * vertices are equal.
- */
-void TetrahedralComplex::Connect(unsigned threads, const std::stop_token& stop)
+template <int D>
+void Complex<D>::Join(std::uint32_t t, unsigned i, std::vector<OpenFacet>& open)
 {
-  const std::size_t points = this->Points.size();
-  SharedCounts places(points, threads, stop);
+  const Facet f = SortedFacet(this->Cells[t].V, i);
+  // The last vertex is compared first: it tells most facets apart.
+  const auto same = std::find_if(open.begin(), open.end(),
+    [&f](const OpenFacet& other) { return other.V.back() == f.back() && other.V == f; });
+  if (same == open.end())
+  {
+    open.push_back({ f, t, i });
+    return;
+  }
+  this->Cells[t].N[i] = same->Cell;
+  this->Cells[same->Cell].N[same->Index] = t;
+  *same = open.back();
+  open.pop_back();
+}
+
+/** Facets are listed by the sum of their vertices, so that lists are short. */
+template <int D>
+void Complex<D>::Connect(unsigned threads, const std::stop_token& stop)
+{
+  const std::size_t lists = std::bit_ceil(this->Points.size());
+  const auto listOf = [lists](const Vertices& v, unsigned i)
+  {
+    const std::size_t sum = std::accumulate(v.begin(), v.end(), std::size_t{ 0 }) - v[i];
+    return static_cast<std::uint32_t>(sum & (lists - 1));
+  };
+  SharedCounts places(lists, threads, stop);
   const auto forEachFacet = [&](auto&& visit)
   {
     ParallelFor(
@@ -221,39 +272,28 @@ void TetrahedralComplex::Connect(unsigned threads, const std::stop_token& stop)
       {
         for (auto t = static_cast<std::uint32_t>(first); t < end; ++t)
         {
-          for (unsigned i = 0; i < 4; ++i)
+          for (unsigned i = 0; i < Corners; ++i)
           {
-            visit(SortedFacet(this->Cells[t].V, i)[0], 4 * t + i);
+            visit(listOf(this->Cells[t].V, i), Corners * t + i);
           }
         }
       },
       stop);
   };
-  forEachFacet([&](std::uint32_t smallest, std::uint32_t) { places.Add(smallest); });
-  UninitialisedVector<std::uint32_t> facets(places.TurnIntoPlaces()); // 4 cell + index
-  forEachFacet(
-    [&](std::uint32_t smallest, std::uint32_t facet) { facets[places.Next(smallest)] = facet; });
+  forEachFacet([&](std::uint32_t list, std::uint32_t) { places.Add(list); });
+  UninitialisedVector<std::uint32_t> facets(places.TurnIntoPlaces()); // Corners * cell + index
+  forEachFacet([&](std::uint32_t list, std::uint32_t facet) { facets[places.Next(list)] = facet; });
   ParallelFor(
-    0, points, Grain, threads,
+    0, lists, Grain, threads,
     [&](std::size_t first, std::size_t last)
     {
-      std::vector<std::uint64_t> others; // of each facet of a list, the larger one in the high half
-      for (std::size_t v = first; v < last; ++v)
+      std::vector<OpenFacet> open;
+      for (std::size_t list = first; list < last; ++list)
       {
-        const std::uint32_t* const list = facets.data() + places.BeginOf(v);
-        others.resize(places.EndOf(v) - places.BeginOf(v));
-        for (std::size_t i = 0; i < others.size(); ++i)
+        open.clear();
+        for (std::size_t k = places.BeginOf(list); k < places.EndOf(list); ++k)
         {
-          const auto f = SortedFacet(this->Cells[list[i] / 4].V, list[i] % 4);
-          others[i] = (std::uint64_t{ f[2] } << 32) | f[1];
-          const auto same =
-            std::find(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(i), others[i]);
-          const auto j = static_cast<std::size_t>(same - others.begin());
-          if (j != i)
-          {
-            this->Cells[list[i] / 4].N[list[i] % 4] = list[j] / 4;
-            this->Cells[list[j] / 4].N[list[j] % 4] = list[i] / 4;
-          }
+          this->Join(facets[k] / Corners, facets[k] % Corners, open);
         }
       }
     },
@@ -264,7 +304,8 @@ void TetrahedralComplex::Connect(unsigned threads, const std::stop_token& stop)
  * If all interface facets of a vertex separate the same two labels, it is on a surface of two
  * labels.
  */
-void TetrahedralComplex::FindKinds(unsigned threads, const std::stop_token& stop)
+template <int D>
+void Complex<D>::FindKinds(unsigned threads, const std::stop_token& stop)
 {
   constexpr std::uint64_t NoPair = 0;
   std::vector<std::uint64_t> sides(this->Points.size(), NoPair);
@@ -290,16 +331,17 @@ void TetrahedralComplex::FindKinds(unsigned threads, const std::stop_token& stop
     {
       for (std::size_t t = first; t < end; ++t)
       {
-        for (unsigned i = 0; i < 4; ++i)
+        for (unsigned i = 0; i < Corners; ++i)
         {
           const Label beside = this->LabelOf(this->Cells[t].N[i]);
           if (this->Labels[t] <= beside) // no interface, or counted from the other side
           {
             continue;
           }
-          for (unsigned k = 1; k < 4; ++k)
+          for (unsigned k = 1; k < Corners; ++k)
           {
-            note(this->Cells[t].V[(i + k) & 3], (std::uint64_t{ this->Labels[t] } << 32) | beside);
+            note(this->Cells[t].V[(i + k) % Corners],
+              (std::uint64_t{ this->Labels[t] } << 32) | beside);
           }
         }
       }
@@ -319,9 +361,10 @@ void TetrahedralComplex::FindKinds(unsigned threads, const std::stop_token& stop
  * A vertex is on an edge of a face if it lies on the face, but some of its triangles towards
  * background do not.
  */
-void TetrahedralComplex::FindBorderFaces(const Domain<3>& domain)
+template <int D>
+void Complex<D>::FindBorderFaces(const Domain<D>& domain)
 {
-  const ImageBorder<3>* const border = domain.Border();
+  const ImageBorder<D>* const border = domain.Border();
   if (!border)
   {
     return;
@@ -334,17 +377,20 @@ void TetrahedralComplex::FindBorderFaces(const Domain<3>& domain)
       this->BorderFaces[v] = static_cast<std::uint8_t>(border->FacesAt(this->Points[v]));
     }
   }
-  for (const Tetrahedron& cell : this->Cells)
+  for (const Cell& cell : this->Cells)
   {
-    for (unsigned i = 0; i < 4; ++i)
+    for (unsigned i = 0; i < Corners; ++i)
     {
       if (cell.N[i] != None)
       {
         continue;
       }
-      const std::array<std::uint32_t, 3> f = SortedFacet(cell.V, i);
-      const unsigned common =
-        this->BorderFaces[f[0]] & this->BorderFaces[f[1]] & this->BorderFaces[f[2]];
+      const Facet f = SortedFacet(cell.V, i);
+      unsigned common = ~0u;
+      for (const std::uint32_t v : f)
+      {
+        common &= this->BorderFaces[v];
+      }
       for (const std::uint32_t v : f)
       {
         if (this->BorderFaces[v] != common && this->Kinds[v] == VertexRole::Surface)
@@ -357,21 +403,26 @@ void TetrahedralComplex::FindBorderFaces(const Domain<3>& domain)
 }
 
 //------------------------------------------------------------------------------------------------
-/** Writes the points that tetrahedra use. @return the number of each vertex in the mesh */
-UninitialisedVector<std::uint32_t> TetrahedralComplex::WritePoints(
-  SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop) const
+/** Writes the points that cells of the mesh use. @return the number of each vertex in the mesh */
+template <int D>
+UninitialisedVector<std::uint32_t> Complex<D>::WritePoints(
+  SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop) const
 {
   UninitialisedVector<std::uint32_t> numbers(this->Points.size());
   ChunkCounts counts(numbers.size());
   const auto forChunks = [&](auto&& function)
   { ParallelFor(0, numbers.size(), ChunkCounts::Grain, threads, function, stop); };
+  const auto isUsed = [this](std::size_t v)
+  { return this->Degrees[v] != 0 && (v < this->FirstOutside || v >= this->EndOfOutside); };
   forChunks(
     [&](std::size_t first, std::size_t end)
     {
-      counts.OfChunk(first) = static_cast<std::size_t>(
-        std::count_if(this->Degrees.begin() + static_cast<std::ptrdiff_t>(first),
-          this->Degrees.begin() + static_cast<std::ptrdiff_t>(end),
-          [](std::uint32_t degree) { return degree != 0; }));
+      std::size_t used = 0;
+      for (std::size_t v = first; v < end; ++v)
+      {
+        used += isUsed(v) ? 1 : 0;
+      }
+      counts.OfChunk(first) = used;
     });
   mesh.Points.resize(counts.TurnIntoPlaces());
   forChunks(
@@ -381,7 +432,7 @@ UninitialisedVector<std::uint32_t> TetrahedralComplex::WritePoints(
       for (std::size_t v = first; v < end; ++v)
       {
         numbers[v] = None;
-        if (this->Degrees[v] != 0)
+        if (isUsed(v))
         {
           numbers[v] = static_cast<std::uint32_t>(place);
           mesh.Points[place++] = this->Points[v];
@@ -391,11 +442,12 @@ UninitialisedVector<std::uint32_t> TetrahedralComplex::WritePoints(
   return numbers;
 }
 
-void TetrahedralComplex::Write(SimplexMesh<3>& mesh, unsigned threads, const std::stop_token& stop)
+template <int D>
+void Complex<D>::Write(SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop)
 {
   const auto release = [](auto&... arrays)
   { ((arrays = std::remove_reference_t<decltype(arrays)>()), ...); }; // {} would keep the memory
-  mesh = SimplexMesh<3>();
+  release(mesh.Points, mesh.Simplices, mesh.Labels);
   release(this->Scores, this->Kinds, this->BorderFaces, this->Hosts, this->Changes);
   const UninitialisedVector<std::uint32_t> numbers = this->WritePoints(mesh, threads, stop);
   release(this->Points, this->Degrees);
@@ -408,14 +460,14 @@ void TetrahedralComplex::Write(SimplexMesh<3>& mesh, unsigned threads, const std
   {
     for (auto t = static_cast<std::uint32_t>(first); t < end; ++t)
     {
-      if (this->IsAlive(t))
+      if (this->IsAlive(t) && this->Labels[t] != 0)
       {
         function(t);
       }
     }
   };
   const auto isInterface = [this](std::uint32_t t, unsigned i)
-  { return this->LabelOf(this->Cells[t].N[i]) < this->Labels[t]; };
+  { return D == 3 && this->LabelOf(this->Cells[t].N[i]) < this->Labels[t]; };
   forChunks(
     [&](std::size_t first, std::size_t end)
     {
@@ -426,7 +478,7 @@ void TetrahedralComplex::Write(SimplexMesh<3>& mesh, unsigned threads, const std
         [&](std::uint32_t t)
         {
           ++alive;
-          for (unsigned i = 0; i < 4; ++i)
+          for (unsigned i = 0; i < Corners; ++i)
           {
             interfaces += isInterface(t, i) ? 1 : 0;
           }
@@ -434,10 +486,13 @@ void TetrahedralComplex::Write(SimplexMesh<3>& mesh, unsigned threads, const std
       cells.OfChunk(first) = alive;
       facets.OfChunk(first) = interfaces;
     });
-  const std::size_t tetrahedra = cells.TurnIntoPlaces();
-  mesh.Labels.resize(tetrahedra);
-  mesh.Facets.resize(facets.TurnIntoPlaces());
-  mesh.FacetLabels.resize(mesh.Facets.size());
+  const std::size_t number = cells.TurnIntoPlaces();
+  mesh.Labels.resize(number);
+  if constexpr (D == 3)
+  {
+    mesh.Facets.resize(facets.TurnIntoPlaces());
+    mesh.FacetLabels.resize(mesh.Facets.size());
+  }
   // Facet i of a positively oriented tetrahedron, its normal outwards.
   constexpr unsigned outward[4][3] = { { 1, 2, 3 }, { 2, 0, 3 }, { 0, 1, 3 }, { 1, 0, 2 } };
   forChunks(
@@ -450,22 +505,24 @@ void TetrahedralComplex::Write(SimplexMesh<3>& mesh, unsigned threads, const std
         {
           const std::int64_t label = this->LabelValues[this->Labels[t]];
           mesh.Labels[cell++] = label;
-          const Vertices& v = this->Cells[t].V;
-          for (unsigned i = 0; i < 4; ++i)
+          if constexpr (D == 3)
           {
-            if (isInterface(t, i))
+            const Vertices& v = this->Cells[t].V;
+            for (unsigned i = 0; i < Corners; ++i)
             {
-              mesh.Facets[facet] = { numbers[v[outward[i][0]]], numbers[v[outward[i][1]]],
-                numbers[v[outward[i][2]]] };
-              mesh.FacetLabels[facet] = { label,
-                this->LabelValues[this->LabelOf(this->Cells[t].N[i])] };
-              ++facet;
+              if (isInterface(t, i))
+              {
+                mesh.Facets[facet] = { numbers[v[outward[i][0]]], numbers[v[outward[i][1]]],
+                  numbers[v[outward[i][2]]] };
+                mesh.FacetLabels[facet] = { label,
+                  this->LabelValues[this->LabelOf(this->Cells[t].N[i])] };
+                ++facet;
+              }
             }
           }
         });
     });
-  release(this->Labels);
-  mesh.Simplices.resize(tetrahedra);
+  mesh.Simplices.resize(number);
   forChunks(
     [&](std::size_t first, std::size_t end)
     {
@@ -474,10 +531,17 @@ void TetrahedralComplex::Write(SimplexMesh<3>& mesh, unsigned threads, const std
         [&](std::uint32_t t)
         {
           const Vertices& v = this->Cells[t].V;
-          mesh.Simplices[cell++] = { numbers[v[0]], numbers[v[1]], numbers[v[2]], numbers[v[3]] };
+          for (unsigned i = 0; i < Corners; ++i)
+          {
+            mesh.Simplices[cell][i] = numbers[v[i]];
+          }
+          ++cell;
         });
     });
-  release(this->Cells);
+  release(this->Cells, this->Labels);
 }
+
+template class Complex<3>;
+template class Complex<4>;
 
 } // namespace voxplex
