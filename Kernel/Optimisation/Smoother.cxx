@@ -32,6 +32,8 @@ constexpr double LeastGainOfInsertion = 1.1;
 constexpr std::size_t LargestCavity = 32;
 /** The largest distance of a vertex from its interface, in edges. */
 constexpr double FarthestHeight = 0.5;
+/** The largest height above an interface, in distances from its closest point. */
+constexpr double SteepestHeight = 2.0;
 /** The distance from an interface point at which labels are looked up, in shortest edges. */
 constexpr double Beside = 0.05;
 
@@ -372,7 +374,10 @@ bool Smoother::FindHeight()
     return false;
   }
   this->Height = Dot(Subtract(p, z), this->Normal);
-  return true;
+  // Where the normal runs beside a sheet, it crosses the interface far behind the closest point.
+  Point<3> closest;
+  return this->Image.ClosestSurfacePoint(p, label, closest) &&
+    std::abs(this->Height) <= SteepestHeight * Distance(p, closest) + Beside * reach;
 }
 
 //------------------------------------------------------------------------------------------------
