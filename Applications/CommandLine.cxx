@@ -14,6 +14,7 @@
 #include <boost/program_options.hpp>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 #include <string_view>
 
@@ -33,6 +34,10 @@ constexpr const char* Examples = R"(Examples:
 
   How good the mesh is, and how far its interfaces are from those of the image:
     voxplex --input knee.nrrd --delta 1.5 --output knee.vtu --hausdorff
+
+  A mesh that is there already: how good it is, and the same mesh for Gmsh:
+    voxplex --mesh knee.vtu --input knee.nrrd --hausdorff
+    voxplex --mesh knee.vtu --interfaces knee.vtp --output knee.msh
 
   The interfaces between labels as a surface, and figures about the mesh:
     voxplex --input knee.nrrd --delta 1.5 --output knee.vtu --plc knee.vtp --stats knee.json
@@ -87,7 +92,15 @@ po::options_description DescribeFiles()
     ("input", Text("FILE"),
       "the label image, of three or four dimensions: NRRD, NIfTI, MetaImage, "
       "DICOM, TIFF, VTK, GIPL, MRC, or a folder that holds a DICOM series; 0 is background; or a "
-      "grey-value image (--isovalue)")                                               //
+      "grey-value image (--isovalue)") //
+    ("mesh", Text("FILE"),
+      "a mesh that is there already, in place of making one: a .vtu file of tetrahedra with the "
+      "cell array Label, or of pentatopes, which also have the point array Time. It is measured, "
+      "beside the image if --input gives one, and written in other formats") //
+    ("interfaces", Text("FILE"),
+      "the interfaces of --mesh (.vtp or .vtu; of pentatopes .vtu): --plc writes them, and formats "
+      "for "
+      "solvers make named surfaces of them")                                         //
     ("series", Text("UID"), "the DICOM series to read, if the folder holds several") //
     ("spacing", Text("X,Y,Z"),
       "the distances of voxels along the axes of the image, in place of what its file says: for "
@@ -109,8 +122,14 @@ po::options_description DescribeFiles()
     ("plc", Text("FILE"),
       ("the triangles between labels: " + ListExtensions(OutputOption::Interfaces, 3) +
         "; of a space-time image the tetrahedra: " + ListExtensions(OutputOption::Interfaces, 4))
-        .c_str())                                                        //
+        .c_str()) //
+    ("uncompressed",
+      "write .vtu and .vtp files without compression: they are larger, and faster to write and to "
+      "read")                                                            //
     ("stats", Text("FILE"), "figures about the mesh and the run: .json") //
+    ("save-image", Text("FILE"),
+      "in place of a mesh: the label image as it was read, with its place, its times and the names "
+      "of its labels: .nrrd") //
     ("quality",
       "measure the mesh against the image and print it: histograms of angles, junctions, "
       "non-manifold edges, volumes, what is lost; --stats has all of it, for each label, too. Of a "
@@ -152,9 +171,14 @@ void AddOwn(po::options_description& options, ParameterGroup group)
   }
   if (group == ParameterGroup::Running)
   {
-    options.add_options()                                                  //
-      ("progress", "show a progress bar, if standard error is a terminal") //
-      ("help", "print this text")                                          //
+    options.add_options() //
+      ("progress",
+        "show a progress bar; if standard error is no terminal, print a line for each new percent, "
+        "such as '37 % Meshing'") //
+      ("messages", Text("shell|python"),
+        "for programs that start this one: the names that errors and warnings have for options "
+        "(default shell)")        //
+      ("help", "print this text") //
       ("version", "print the version");
   }
 }
@@ -398,13 +422,52 @@ void TakeLists(const po::variables_map& values, Parameters& p)
   }
 }
 
+/** What has no effect on a mesh that is there, or none without the image. */
+void CheckOptionsOfMesh(const po::variables_map& values)
+{
+  static const std::set<std::string_view> measuring{ "labels", "smoothing", "facet-angle",
+    "smallest-component", "radius-edge", "time-scale", "frame-times", "threads" };
+  const auto refuse = [&values](const std::string& option, const std::string& why)
+  {
+    if (values.count(option))
+    {
+      throw UsageError("--" + option + why);
+    }
+  };
+  constexpr const char* making =
+    ": only for making a mesh, and --mesh gives one that is there; leave one of the two out";
+  refuse("time-planes", making);
+  for (const MeshingParameter& parameter : MeshingParameters())
+  {
+    if (!measuring.count(parameter.Name))
+    {
+      refuse(NameIn(UserInterface::CommandLine, parameter), making);
+    }
+  }
+  for (const char* const option : { "series", "spacing", "origin", "direction", "space", "labels",
+         "label-table", "data-files-anywhere", "smoothing", "smallest-component", "hausdorff" })
+  {
+    if (!values.count("input"))
+    {
+      refuse(option, ": only with an image beside the mesh; give it with --input");
+    }
+  }
+}
+
 Parameters ToParameters(const po::variables_map& values)
 {
   Parameters p;
+  if (values.count("mesh"))
+  {
+    CheckOptionsOfMesh(values);
+  }
   Take(values, "input", ParseName, p.Input);
+  Take(values, "mesh", ParseName, p.Mesh);
+  Take(values, "interfaces", ParseName, p.MeshInterfaces);
   Take(values, "output", ParseName, p.Output);
   Take(values, "plc", ParseName, p.Interfaces);
   Take(values, "stats", ParseName, p.Statistics);
+  Take(values, "save-image", ParseName, p.SavedImage);
   Take(values, "size-image", ParseName, p.SizeImage);
   TakeReading(values, p.Reading);
   TakeValues(values, p.Values);
@@ -432,13 +495,30 @@ Parameters ToParameters(const po::variables_map& values)
       return p.TimePlanesAtFrames ? std::vector<double>() : ParseNumbers(option, text);
     },
     p.TimePlanes);
+  Take(values, "messages", ParseWords, p.Words);
   p.Progress = values.count("progress") > 0;
+  p.Compress = values.count("uncompressed") == 0;
   p.Hausdorff = values.count("hausdorff") > 0;
   p.Quality = p.Hausdorff || values.count("quality") > 0;
   return p;
 }
 
 } // namespace
+
+UserInterface WordsOf(int argc, const char* const* argv)
+{
+  constexpr std::string_view option = "--messages";
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string_view argument = argv[i];
+    if (argument == std::string(option) + "=python" ||
+      (argument == option && i + 1 < argc && std::string_view(argv[i + 1]) == "python"))
+    {
+      return UserInterface::Python;
+    }
+  }
+  return UserInterface::CommandLine;
+}
 
 CommandLine ParseCommandLine(int argc, const char* const* argv)
 {

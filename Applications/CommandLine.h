@@ -30,6 +30,9 @@ struct CommandLine
  */
 CommandLine ParseCommandLine(int argc, const char* const* argv);
 
+/** Whose words --messages asks for. Other options may be wrong. */
+UserInterface WordsOf(int argc, const char* const* argv);
+
 } // namespace voxplex::cli
 
 #endif

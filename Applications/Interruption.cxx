@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interruption.h"
 
+#include "Errors.h"
+
 #include <atomic>
 #include <csignal>
+#include <cstring>
+#include <utility>
 
 #include <pthread.h>
 #include <unistd.h>
@@ -27,6 +31,7 @@ struct TemporaryFile
 std::atomic<TemporaryFile*> Temporaries = nullptr;
 std::atomic<int> SignalNumber = 0;
 std::atomic<bool> Cancellable = false;
+std::atomic<const char*> MessageOfCrash = nullptr;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
   std::atomic<void*>::is_always_lock_free);
 
@@ -65,6 +70,22 @@ void OnSignal(int number)
 void OnAlarm(int)
 {
   RemoveTemporariesAndExit();
+}
+
+void OnCrash(int)
+{
+  RemoveTemporaries();
+  const char* const message = MessageOfCrash;
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, message, std::strlen(message));
+  _exit(ExitFailure);
+}
+
+void HandleCrashes(void (*handler)(int))
+{
+  for (const int number : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT })
+  {
+    std::signal(number, handler);
+  }
 }
 
 sigset_t EndingSignals()
@@ -128,6 +149,18 @@ Interruption::CancellableStep::CancellableStep()
 Interruption::CancellableStep::~CancellableStep()
 {
   Cancellable = false;
+}
+
+Interruption::CrashReport::CrashReport(std::string message)
+  : Message(std::move(message))
+{
+  MessageOfCrash = this->Message.c_str();
+  HandleCrashes(OnCrash);
+}
+
+Interruption::CrashReport::~CrashReport()
+{
+  HandleCrashes(SIG_DFL);
 }
 
 Interruption::Deferral::Deferral()

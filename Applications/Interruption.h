@@ -45,6 +45,22 @@ public:
     CancellableStep& operator=(const CancellableStep&) = delete;
   };
 
+  /**
+   * While one lives, a crash removes the temporary files, prints a message and ends the program with status 1. For
+   * files from strangers, and libraries that crash on some.
+   */
+  class CrashReport
+  {
+  public:
+    explicit CrashReport(std::string message);
+    ~CrashReport();
+    CrashReport(const CrashReport&) = delete;
+    CrashReport& operator=(const CrashReport&) = delete;
+
+  private:
+    const std::string Message;
+  };
+
   /** While one lives, signals wait. */
   class Deferral
   {

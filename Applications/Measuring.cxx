@@ -30,6 +30,12 @@ std::string Place(const ordered_json& place)
     ")";
 }
 
+/** Null, as it is, if there is no number. */
+ordered_json Percent(const ordered_json& share)
+{
+  return share.is_number() ? ordered_json(100.0 * share.get<double>()) : share;
+}
+
 std::string Distances(const char* name, const ordered_json& figures)
 {
   const auto direction = [&figures](const char* key)
@@ -57,6 +63,10 @@ vtkSmartPointer<vtkSimplexMeshQuality> MakeFilter(
   {
     filter->SetSmoothingSigma(*sigma);
   }
+  if (const auto ratio = parameters.Value("radius-edge"))
+  {
+    filter->SetRadiusEdgeRatio(*ratio);
+  }
   if (const auto angle = parameters.Value("facet-angle"))
   {
     filter->SetFacetAngle(*angle);
@@ -69,21 +79,18 @@ vtkSmartPointer<vtkSimplexMeshQuality> MakeFilter(
   return filter;
 }
 
-/** Beside the image, or beside each of its frames. */
+/** Beside the image or each of its frames, if there is one. */
 void Connect(vtkSimplexMeshQuality* filter, const Parameters& parameters, const MeshingInput& input)
 {
-  const bool hasLabels = !parameters.Has("isovalue"); // grey values have none
-  if (hasLabels)
+  filter->SetTimeScale(parameters.Value("time-scale").value_or(1.0));
+  if (input.Labels && !parameters.Has("isovalue")) // grey values have no labels
   {
     filter->SetImageConnection(input.Labels->GetOutputPort());
+    return;
   }
-  if (input.Dimension() == 4)
+  for (const double time : input.Labels ? input.TimesOfFrames() : parameters.Reading.FrameTimes)
   {
-    filter->SetTimeScale(parameters.Value("time-scale").value_or(1.0));
-    for (int frame = 0; !hasLabels && frame < input.Labels->GetNumberOfFrames(); ++frame)
-    {
-      filter->AddFrameTime(input.Labels->GetTimeOfFrame(frame));
-    }
+    filter->AddFrameTime(time);
   }
 }
 
@@ -171,6 +178,10 @@ std::vector<std::uint64_t> DihedralAngles(const ordered_json& frames)
 std::string SummarizeFrames(const ordered_json& report)
 {
   const ordered_json& frames = report["frames"];
+  if (frames.empty())
+  {
+    return "";
+  }
   std::ostringstream text;
   text << "Quality of the cuts at " << frames.size()
        << " frames:\n  dihedral angles in steps of 10 degrees, %:" << Shares(DihedralAngles(frames))
@@ -182,7 +193,10 @@ std::string SummarizeFrames(const ordered_json& report)
   Worst total;
   for (const auto& [label, figures] : report["labels"].items())
   {
-    total.Update(figures["volume_error"], label, nullptr);
+    if (figures["volume_error"].is_number()) // not of labels that the image has not
+    {
+      total.Update(figures["volume_error"], label, nullptr);
+    }
   }
   const Worst volume = WorstVolume(frames);
   std::size_t lost = 0;
@@ -229,7 +243,8 @@ ordered_json Measure(const Parameters& parameters, const MeshingInput& input,
   }
   if (!filter->GetErrorMessage().empty())
   {
-    throw RunError("cannot measure the mesh: " + filter->GetErrorMessage());
+    throw RunError(
+      "cannot measure the mesh: " + InTermsOf(parameters.Words, filter->GetErrorMessage()));
   }
   return ordered_json::parse(filter->ToJSON());
 }
@@ -264,7 +279,7 @@ std::string SummarizeMeasurement(const ordered_json& report)
   }
   const ordered_json& quality = report["quality"];
   const ordered_json& topology = report["topology"];
-  const ordered_json& image = report["image"];
+  const ordered_json image = report.value("image", ordered_json());
   std::ostringstream text;
   text << "Quality:\n  dihedral angles in steps of 10 degrees, %:"
        << Shares(quality["dihedral_histogram"])
@@ -280,9 +295,9 @@ std::string SummarizeMeasurement(const ordered_json& report)
   {
     text << "  " << image["lost_labels"].size() << " labels and " << image["lost_components"].size()
          << " of " << image["components"] << " components lost; volumes of labels off by "
-         << Rounded(100.0 * image["label_volume_error"].get<double>(), 2) << " %\n";
+         << Rounded(Percent(image["label_volume_error"]), 2) << " %\n";
   }
-  const ordered_json& distances = report["hausdorff"];
+  const ordered_json distances = report.value("hausdorff", ordered_json::object());
   if (distances.contains("voxels"))
   {
     text << Distances("the faces of voxels", distances["voxels"])

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Measuring.h
- * @brief --quality and --hausdorff: the mesh beside its image.
+ * @brief --quality and --hausdorff: the mesh, beside its image if there is one.
  */
 #ifndef voxplex_cli_Measuring_h
 #define voxplex_cli_Measuring_h
@@ -20,8 +20,8 @@ namespace voxplex::cli
 {
 
 /**
- * Measures a mesh as `parameters` ask for, beside the image that it was made from; one of pentatopes also by its
- * cuts at the times of the frames.
+ * Measures a mesh as `parameters` ask for, beside the image that it was made from, if there is one; one of pentatopes
+ * also by its cuts at the times of the frames.
  *
  * @param progress as for Mesh()
  * @return what vtkSimplexMeshQuality::ToJSON() says; null if progress stopped it
@@ -36,7 +36,7 @@ nlohmann::ordered_json Measure(const Parameters& parameters, const MeshingInput&
  */
 void AddMeasurement(const nlohmann::ordered_json& measurement, nlohmann::ordered_json& report);
 
-/** Lines for people, of a report to which a measurement was added. */
+/** Lines for people, of a measurement, or of a report to which one was added. */
 std::string SummarizeMeasurement(const nlohmann::ordered_json& report);
 
 } // namespace voxplex::cli

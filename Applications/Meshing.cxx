@@ -34,7 +34,7 @@ void Configure(Filter* filter, const Parameters& p, const LabelSelection& select
   }
   SetLabels(filter, selection);
   filter->ComputeQualityOn();
-  filter->SetVocabulary(Filter::VOCABULARY_COMMAND_LINE);
+  filter->SetVocabulary(static_cast<int>(p.Words)); // the filter has the same numbers
 }
 
 } // namespace
@@ -42,6 +42,16 @@ void Configure(Filter* filter, const Parameters& p, const LabelSelection& select
 int MeshingInput::Dimension() const
 {
   return this->Labels->GetNumberOfFrames() > 1 ? 4 : 3;
+}
+
+std::vector<double> MeshingInput::TimesOfFrames() const
+{
+  std::vector<double> times;
+  for (int frame = 0; frame < this->Labels->GetNumberOfFrames(); ++frame)
+  {
+    times.push_back(this->Labels->GetTimeOfFrame(frame));
+  }
+  return times;
 }
 
 vtkSmartPointer<vtkImageToSimplexMeshFilter> Mesh(
@@ -59,7 +69,8 @@ vtkSmartPointer<vtkImageToSimplexMeshFilter> Mesh(
     filter->SetElementSizeData(input.Sizes->GetOutput());
   }
 
-  Execute(filter, progress);
+  Execute(filter,
+    [&progress](double fraction, const std::string&) { return progress(fraction, "Meshing"); });
   if (!filter->GetErrorMessage().empty())
   {
     throw RunError("cannot mesh '" + parameters.Input + "': " + filter->GetErrorMessage());

@@ -12,6 +12,8 @@
 
 #include <vtkSmartPointer.h>
 
+#include <vector>
+
 class vtkImageToSimplexMeshFilter;
 class vtkSegmentationReader;
 
@@ -21,11 +23,12 @@ namespace voxplex::cli
 /** Readers that have read their files. */
 struct MeshingInput
 {
-  vtkSmartPointer<vtkSegmentationReader> Labels;
-  vtkSmartPointer<vtkSegmentationReader> Sizes; ///< null if there is no image of sizes
+  vtkSmartPointer<vtkSegmentationReader> Labels; ///< null if there is only a mesh
+  vtkSmartPointer<vtkSegmentationReader> Sizes;  ///< null if there is no image of sizes
   LabelSelection Selection;
 
   int Dimension() const; ///< 4 if there are several frames, else 3
+  std::vector<double> TimesOfFrames() const;
 };
 
 /**

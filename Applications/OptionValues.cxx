@@ -63,6 +63,26 @@ std::vector<double> ParseSoMany(
   return numbers;
 }
 
+/** What an interface calls an option, which is given without dashes. */
+std::string NameOfOption(UserInterface interface, std::string option)
+{
+  for (const MeshingParameter& parameter : MeshingParameters())
+  {
+    const std::string name = NameIn(interface, parameter);
+    if (NameIn(UserInterface::CommandLine, parameter) == option && !name.empty())
+    {
+      return parameter.IsOnByDefault() ? name + "=False"
+                                       : InTermsOf(interface, "{" + parameter.Name + "}");
+    }
+  }
+  if (option == "frame-times")
+  {
+    return "times";
+  }
+  std::replace(option.begin(), option.end(), '-', '_');
+  return option;
+}
+
 } // namespace
 
 std::string Quoted(std::string_view text)
@@ -159,10 +179,6 @@ std::vector<double> ParseFrameTimes(const std::string& option, std::string_view 
       throw UsageError("--" + option + ": times must increase, but " + NumberText(times[k]) +
         " follows " + NumberText(times[k - 1]));
     }
-  }
-  if (times.size() < 2)
-  {
-    throw UsageError("--" + option + ": give the time of each frame, such as 0,40,80");
   }
   return times;
 }
@@ -276,6 +292,35 @@ int ParseWhole(const std::string& option, const std::string& text, int low, int 
 io::Space ParseSpace(const std::string& option, const std::string& text)
 {
   return ParseWord(option, text, { "lps", "ras" }) == 0 ? io::Space::LPS : io::Space::RAS;
+}
+
+UserInterface ParseWords(const std::string& option, const std::string& text)
+{
+  return ParseWord(option, text, { "shell", "python" }) == 0 ? UserInterface::CommandLine
+                                                             : UserInterface::Python;
+}
+
+std::string NameOptions(UserInterface interface, const std::string& message)
+{
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz-";
+  std::string named;
+  std::size_t end = 0;
+  for (std::size_t at = 0; interface != UserInterface::CommandLine &&
+       (at = message.find("--", at)) != std::string::npos;)
+  {
+    const std::size_t first = at + 2;
+    const std::size_t last = std::min(message.find_first_not_of(letters, first), message.size());
+    // What is behind a quotation mark is the user's.
+    const bool isOption = last > first && (at == 0 || message[at - 1] == ' ');
+    if (isOption)
+    {
+      named += message.substr(end, at - end) +
+        NameOfOption(interface, message.substr(first, last - first));
+      end = last;
+    }
+    at = last;
+  }
+  return named + message.substr(end);
 }
 
 } // namespace voxplex::cli

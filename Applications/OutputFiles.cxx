@@ -43,7 +43,7 @@ void AnnounceMesh(io::WholeFiles& files, const std::string& path)
 }
 
 void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
-  const std::string& path, const io::WholeFiles& files, int slab)
+  const std::string& path, const io::WholeFiles& files, int slab, bool compress)
 {
   if (path.empty())
   {
@@ -57,6 +57,7 @@ void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
   }
   writer->SetContent(content);
   writer->SetSlab(slab);
+  writer->SetCompress(compress);
   writer->SetFileName(path.c_str());
   writer->SetTemporaryFileName(files.TemporaryPath(path).c_str());
   const std::string companion = vtkSimplexMeshWriter::CompanionOf(path);

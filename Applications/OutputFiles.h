@@ -36,10 +36,11 @@ void AnnounceMesh(io::WholeFiles& files, const std::string& path);
  * @param interfaces may be null
  * @param content of vtkSimplexMeshWriter
  * @param slab the only one to write; -1: the whole mesh
+ * @param compress .vtu and .vtp files
  * @throws RunError with the writer's reason
  */
 void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
-  const std::string& path, const io::WholeFiles& files, int slab = -1);
+  const std::string& path, const io::WholeFiles& files, int slab = -1, bool compress = true);
 
 /** Writes the mesh of a filter, and its interfaces. */
 void WriteMeshFiles(vtkImageToSimplexMeshFilter* filter, const std::string& mesh,

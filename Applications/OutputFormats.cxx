@@ -50,15 +50,6 @@ bool Takes(OutputOption option, const std::string& path, std::optional<int> dime
     : vtkSimplexMeshWriter::HasFormat(path, ContentOf(option), dimension.value_or(0));
 }
 
-const char* Elements(OutputOption option, int dimension)
-{
-  if (option == OutputOption::Output)
-  {
-    return dimension == 3 ? "tetrahedra" : "pentatopes";
-  }
-  return dimension == 3 ? "triangles between labels" : "tetrahedra between labels";
-}
-
 /** Which extensions to use, of one dimension or of both. */
 std::string Advice(OutputOption option, std::optional<int> dimension)
 {
@@ -90,10 +81,10 @@ void RequireFormat(OutputOption option, const std::string& path, std::optional<i
   std::string message = std::string(NameOf(option)) + ": ";
   if (isKnown)
   {
-    const bool isSpaceTime = *dimension == 4;
-    message += "'" + extension + "' does not hold the " + Elements(option, *dimension) +
-      (isSpaceTime ? " of a space-time image, and the input is one"
-                   : " of a 3D image, and the input is one");
+    // What holds a mesh of space-time holds one of three dimensions, too.
+    message += "'" + extension + "' does not hold the " +
+      (option == OutputOption::Output ? "pentatopes" : "tetrahedra between labels") +
+      " of a space-time image, and the input is one";
   }
   else
   {

@@ -30,6 +30,10 @@ std::string OptionOf(const MeshingParameter& parameter)
 
 void CheckForced(const Parameters& p)
 {
+  if (!p.Mesh.empty()) // of a mesh that is there, bounds only count violations
+  {
+    return;
+  }
   for (const auto& [name, value] : p.Values)
   {
     const MeshingParameter& parameter = FindParameter(name);
@@ -44,8 +48,14 @@ void CheckSpaceTime(const Parameters& p)
   RefuseIf(p.SliceCount && p.Slices.empty(),
     "--slice-count: give the beginning of the slices' names with --slices");
   const bool hasPlanes = p.TimePlanesAtFrames || !p.TimePlanes.empty() || p.Has("periodic");
-  RefuseIf(!p.Slabs.empty() && !hasPlanes,
+  RefuseIf(!p.Slabs.empty() && !hasPlanes && p.Mesh.empty(),
     "--slabs: there is one slab only; give the times of planes with --time-planes");
+  const bool hasFrames = !p.Input.empty() || p.Mesh.empty();
+  RefuseIf(hasFrames && p.Reading.FrameTimes.size() == 1,
+    "--frame-times: give the time of each frame, such as 0,40,80");
+  RefuseIf(!hasFrames && !p.Slices.empty() && !p.SliceCount && p.Reading.FrameTimes.empty(),
+    "--slices: a mesh has no frames; give the number of slices with --slice-count, or their times "
+    "with --frame-times");
   for (const char* name : { "picks", "sliver-bound", "seed" })
   {
     RefuseIf(p.Has("picking") && p.Has(name), OptionOf(FindParameter(name)),
@@ -86,16 +96,42 @@ void CheckDependent(const Parameters& p)
     "out");
 }
 
+/** A mesh that is there. */
+void CheckMesh(const Parameters& p)
+{
+  if (p.Mesh.empty())
+  {
+    RefuseIf(!p.MeshInterfaces.empty(), "--interfaces",
+      ": these are those of a mesh that is there; give it with --mesh");
+    RefuseIf(p.Input.empty(), "--input is missing: which image shall be meshed?");
+    return;
+  }
+  RefuseIf(!p.Interfaces.empty() && p.MeshInterfaces.empty(), "--plc",
+    ": the interfaces of a mesh that is there come from a file; give it with --interfaces");
+}
+
+/** A copy of the image. */
+void CheckSavedImage(const Parameters& p)
+{
+  if (p.SavedImage.empty())
+  {
+    return;
+  }
+  RefuseIf(!p.SavedImage.ends_with(".nrrd"), "--save-image", ": images are saved as .nrrd");
+  const bool isMore =
+    p.Quality || !(p.Output + p.Interfaces + p.Statistics + p.Slices + p.Slabs + p.Mesh).empty();
+  RefuseIf(isMore, "--save-image",
+    ": no mesh is made or read beside it; leave it or the options about meshes out");
+}
+
 } // namespace
 
 void CheckTogether(const Parameters& p)
 {
   CheckForced(p);
   CheckSpaceTime(p);
-  if (p.Input.empty())
-  {
-    throw UsageError("--input is missing: which image shall be meshed?");
-  }
+  CheckMesh(p);
+  CheckSavedImage(p);
   CheckIsosurface(p);
   CheckDependent(p);
   RequireFormat(OutputOption::Output, p.Output);
@@ -109,18 +145,23 @@ void CheckTogether(const Parameters& p)
 
 void CheckDimension(const Parameters& p, int dimension)
 {
-  const std::string why = dimension == 3
+  const std::string why = dimension == 3 && !p.Mesh.empty()
+    ? ": only for meshes of pentatopes, and " + Quoted(p.Mesh) + " has tetrahedra; leave it out"
+    : dimension == 3
     ? ": only for space-time images, which have four dimensions and at least two time frames; " +
       Quoted(p.Input) + " is a 3D image"
     : ": only for 3D images, and " + Quoted(p.Input) + " is a space-time image; leave it out";
   for (const MeshingParameter& parameter : MeshingParameters())
   {
-    const bool isOfOthers = parameter.Dimension != 0 && parameter.Dimension != dimension;
+    const bool isOfOthers = parameter.Dimension != 0 && parameter.Dimension != dimension &&
+      (p.Mesh.empty() || dimension == 3); // cuts of pentatopes have tetrahedra
     RefuseIf(isOfOthers && p.Has(parameter.Name), OptionOf(parameter), why);
   }
   RefuseIf(dimension == 3 && !p.Slices.empty(), "--slices", why);
   RefuseIf(dimension == 3 && !p.Slabs.empty(), "--slabs", why);
   RefuseIf(dimension == 3 && (p.TimePlanesAtFrames || !p.TimePlanes.empty()), "--time-planes", why);
+  RefuseIf(
+    dimension == 3 && p.Input.empty() && !p.Reading.FrameTimes.empty(), "--frame-times", why);
   RequireFormat(OutputOption::Output, p.Output, dimension);
   RequireFormat(OutputOption::Interfaces, p.Interfaces, dimension);
 }

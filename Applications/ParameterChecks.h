@@ -21,7 +21,7 @@ namespace voxplex::cli
 void CheckTogether(const Parameters& parameters);
 
 /**
- * Checks what depends on the dimension of the image that is to be meshed, 3 or 4.
+ * Checks what depends on the dimension of the image that is to be meshed, or of the mesh that is there: 3 or 4.
  *
  * @throws UsageError: options and output formats for the other dimension
  */

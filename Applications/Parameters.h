@@ -51,10 +51,13 @@ struct ReadingOptions
 struct Parameters
 {
   std::string Input;
-  ReadingOptions Reading; ///< of the input
+  ReadingOptions Reading;     ///< of the input
+  std::string Mesh;           ///< that is there already
+  std::string MeshInterfaces; ///< those of Mesh
   std::string Output;
   std::string Interfaces;
   std::string Statistics;
+  std::string SavedImage; ///< where a copy of the image goes, in place of a mesh
   std::string SizeImage;
   std::string Slices; ///< the beginning of the names of slices
   std::optional<int> SliceCount;
@@ -68,7 +71,9 @@ struct Parameters
   std::vector<InterfaceSizeText> InterfaceSizeTexts;
   std::vector<std::string> LabelTexts; ///< each is one label, or several with commas between them
 
+  UserInterface Words = UserInterface::CommandLine; ///< of errors and warnings
   bool Progress = false;
+  bool Compress = true; ///< .vtu and .vtp files
   bool Quality = false;
   bool Hausdorff = false; ///< implies Quality
 

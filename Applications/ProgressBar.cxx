@@ -12,13 +12,14 @@ namespace voxplex::cli
 {
 
 ProgressBar::ProgressBar(bool wanted)
-  : Visible(wanted && isatty(STDERR_FILENO))
+  : IsBar(wanted && isatty(STDERR_FILENO))
+  , IsLines(wanted && !this->IsBar)
 {
 }
 
 ProgressBar::~ProgressBar()
 {
-  if (this->Visible)
+  if (this->IsBar)
   {
     std::fputs("\r\033[K", stderr);
     std::fflush(stderr);
@@ -29,20 +30,34 @@ void ProgressBar::Show(double fraction, const std::string& step)
 {
   using namespace std::chrono_literals;
   const Clock::time_point now = Clock::now();
-  if (!this->Visible || (step == this->LastStep && now - this->LastDrawn < 100ms))
+  const bool isSoon = now - this->LastDrawn < 100ms;
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  const int percent = static_cast<int>(100.0 * fraction);
+  if (this->IsBar && !(isSoon && step == this->LastStep))
+  {
+    this->Draw(fraction, step, now);
+  }
+  else if (this->IsLines && percent != this->LastPercent)
+  {
+    std::fprintf(stderr, "%d %% %s\n", percent, step.c_str());
+  }
+  else
   {
     return;
   }
+  std::fflush(stderr);
   this->LastDrawn = now;
   this->LastStep = step;
+  this->LastPercent = percent;
+}
 
+void ProgressBar::Draw(double fraction, const std::string& step, Clock::time_point now)
+{
   constexpr int width = 30;
-  fraction = std::clamp(fraction, 0.0, 1.0);
   const int filled = static_cast<int>(std::lround(fraction * width));
   const double seconds = std::chrono::duration<double>(now - this->Start).count();
   std::fprintf(stderr, "\r[%s%s] %3.0f %%  %.0f s  %s\033[K", std::string(filled, '=').c_str(),
     std::string(width - filled, ' ').c_str(), 100.0 * fraction, seconds, step.c_str());
-  std::fflush(stderr);
 }
 
 } // namespace voxplex::cli

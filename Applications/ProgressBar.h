@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ProgressBar.h
- * @brief A bar on standard error, if that is a terminal.
+ * @brief How much is done, on standard error: a bar in a terminal, lines for other programs.
  */
 #ifndef voxplex_cli_ProgressBar_h
 #define voxplex_cli_ProgressBar_h
@@ -16,23 +16,31 @@ namespace voxplex::cli
 class ProgressBar
 {
 public:
-  /** Shows nothing if not wanted, or if standard error is not a terminal. */
+  /** Shows nothing if not wanted. */
   explicit ProgressBar(bool wanted);
-  /** Wipes the line. */
+  /** Wipes the bar. */
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /** @param fraction 0 to 1 of the whole run; drawn at most ten times a second */
+  /**
+   * A bar is drawn at most ten times a second; lines, such as "37 % Meshing", are written for new percents only.
+   *
+   * @param fraction 0 to 1 of the whole run
+   */
   void Show(double fraction, const std::string& step);
 
 private:
   using Clock = std::chrono::steady_clock;
 
-  bool Visible;
+  void Draw(double fraction, const std::string& step, Clock::time_point now);
+
+  const bool IsBar;
+  const bool IsLines;
   Clock::time_point Start = Clock::now();
   Clock::time_point LastDrawn{};
   std::string LastStep;
+  int LastPercent = -1;
 };
 
 } // namespace voxplex::cli

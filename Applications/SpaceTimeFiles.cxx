@@ -96,8 +96,9 @@ void CheckFilePrefix(
   }
 }
 
-Slicer::Slicer(vtkUnstructuredGrid* mesh)
+Slicer::Slicer(vtkUnstructuredGrid* mesh, bool compress)
   : Filter(vtkSmartPointer<vtkPentatopeMeshTimeSlice>::New())
+  , Compress(compress)
 {
   this->Filter->SetInputData(mesh);
 }
@@ -118,7 +119,8 @@ void Slicer::Write(double time, const std::string& path, const io::WholeFiles& f
   timeValue->SetName("TimeValue");
   timeValue->InsertNextValue(time);
   slice->GetFieldData()->AddArray(timeValue);
-  WriteMeshFile(slice, nullptr, vtkSimplexMeshWriter::CONTENT_MESH, path, files);
+  WriteMeshFile(
+    slice, nullptr, vtkSimplexMeshWriter::CONTENT_MESH, path, files, -1, this->Compress);
 }
 
 void WriteCollection(const SliceFiles& slices, const io::WholeFiles& files)
@@ -163,14 +165,14 @@ void SlabFiles::AnnounceOthers(io::WholeFiles& files, vtkUnstructuredGrid* mesh)
   }
 }
 
-void SlabFiles::Write(
-  vtkUnstructuredGrid* mesh, vtkUnstructuredGrid* boundary, const io::WholeFiles& files) const
+void SlabFiles::Write(vtkUnstructuredGrid* mesh, vtkDataObject* boundary,
+  const io::WholeFiles& files, bool compress) const
 {
   const int planes = NumberOfPlanes(mesh);
   for (int slab = 0; slab <= planes; ++slab)
   {
     WriteMeshFile(mesh, boundary, vtkSimplexMeshWriter::CONTENT_MESH, this->NameOf(slab), files,
-      planes > 0 ? slab : -1);
+      planes > 0 ? slab : -1, compress);
   }
 }
 

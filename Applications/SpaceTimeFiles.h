@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+class vtkDataObject;
 class vtkPentatopeMeshTimeSlice;
 class vtkUnstructuredGrid;
 
@@ -56,7 +57,8 @@ void CheckFilePrefix(
 class Slicer
 {
 public:
-  explicit Slicer(vtkUnstructuredGrid* mesh);
+  /** @param compress as for WriteMeshFile() */
+  Slicer(vtkUnstructuredGrid* mesh, bool compress);
   ~Slicer();
 
   /**
@@ -69,6 +71,7 @@ public:
 
 private:
   vtkSmartPointer<vtkPentatopeMeshTimeSlice> Filter;
+  const bool Compress;
 };
 
 /** Writes the collection; it names the slices relative to its own place. @throws io::OutputError */
@@ -91,9 +94,9 @@ public:
   /** Announces the others. @throws io::OutputError */
   void AnnounceOthers(io::WholeFiles& files, vtkUnstructuredGrid* mesh) const;
 
-  /** @throws RunError with the writer's reason */
-  void Write(
-    vtkUnstructuredGrid* mesh, vtkUnstructuredGrid* boundary, const io::WholeFiles& files) const;
+  /** @param boundary may be null @throws RunError with the writer's reason */
+  void Write(vtkUnstructuredGrid* mesh, vtkDataObject* boundary, const io::WholeFiles& files,
+    bool compress) const;
 
 private:
   std::string NameOf(int slab) const;

@@ -7,6 +7,7 @@
 
 #include <voxplexVersion.h>
 #include <vtkMeshingStatistics.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <iomanip>
@@ -95,7 +96,7 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
     { "origin", OrNull(p.Reading.Origin) }, { "direction", OrNull(p.Reading.Direction) },
     { "data_files_anywhere", p.Reading.DataFilesAnywhere }, { "space", ToString(p.Reading.Space) },
     { "quality", p.Quality }, { "hausdorff", p.Hausdorff }, { "slices", OrNull(p.Slices) },
-    { "slice_count", OrNull(p.SliceCount) } });
+    { "slice_count", OrNull(p.SliceCount) }, { "uncompressed", !p.Compress } });
   return parameters;
 }
 
@@ -163,17 +164,20 @@ std::string SummarizeTetrahedra(const ordered_json& quality)
 }
 
 /** The figures of the thesis' tables 4.2 and 4.3. */
-std::string SummarizePentatopes(const ordered_json& report)
+std::string SummarizePentatopes(const ordered_json& quality)
 {
-  const ordered_json& quality = report["quality"];
-  const ordered_json& cavities = report["cavities"];
   return "Shortest edge " + Significant(quality["shortest_edge"]) + "; radius-edge ratio at most " +
     Rounded(quality["max_radius_edge"], 4) + ", " + Rounded(quality["mean_radius_edge"], 2) +
     " +- " + Rounded(quality["radius_edge_deviation"], 2) + "; normalized volume at least " +
     Rounded(quality["min_normalized_volume"], 4) + ", " +
     Rounded(quality["mean_normalized_volume"], 2) + " +- " +
-    Rounded(quality["normalized_volume_deviation"], 2) + "; cavities of " +
-    Rounded(cavities["mean"], 0) + " pentatopes, at most " + Grouped(cavities["largest"]);
+    Rounded(quality["normalized_volume_deviation"], 2);
+}
+
+std::string SummarizeCavities(const ordered_json& cavities)
+{
+  return "; cavities of " + Rounded(cavities["mean"], 0) + " pentatopes, at most " +
+    Grouped(cavities["largest"]);
 }
 
 /** How --elements was met. */
@@ -246,12 +250,31 @@ std::string Summarize(const ordered_json& report)
        << (isSpaceTime ? " boundary tetrahedra" : " interface triangles") << " with delta "
        << Significant(report["delta"]) << SummarizeRuns(report) << ". "
        << SummarizeDropped(report["dropped_components"])
-       << (isSpaceTime ? SummarizePentatopes(report) : SummarizeTetrahedra(report["quality"]))
+       << (isSpaceTime
+              ? SummarizePentatopes(report["quality"]) + SummarizeCavities(report["cavities"])
+              : SummarizeTetrahedra(report["quality"]))
        << ". Read in " << Rounded(time["read"], 2) << " s, meshed in "
        << Rounded(time["total_without_io"], 2) << " s, written in " << Rounded(time["write"], 2)
        << " s, with at most "
        << Grouped(report["peak_memory_bytes"].get<std::int64_t>() / (1 << 20))
        << " MiB of memory.\n";
+  return text.str();
+}
+
+std::string SummarizeMesh(vtkUnstructuredGrid* mesh, int dimension, const ordered_json& measurement,
+  const InputOutputTimes& times)
+{
+  const bool isSpaceTime = dimension == 4;
+  std::ostringstream text;
+  text << Grouped(mesh->GetNumberOfCells()) << (isSpaceTime ? " pentatopes, " : " tetrahedra, ")
+       << Grouped(mesh->GetNumberOfPoints()) << " vertices. ";
+  if (!measurement.is_null())
+  {
+    const ordered_json& quality = measurement["quality"];
+    text << (isSpaceTime ? SummarizePentatopes(quality) : SummarizeTetrahedra(quality)) << ". ";
+  }
+  text << "Read in " << Rounded(times.Read, 2) << " s, written in " << Rounded(times.Write, 2)
+       << " s.\n";
   return text.str();
 }
 

@@ -16,6 +16,7 @@
 #include <string>
 
 class vtkMeshingStatistics;
+class vtkUnstructuredGrid;
 
 namespace voxplex::io
 {
@@ -53,6 +54,14 @@ void WriteReport(
 
 /** One paragraph for people, from a report. */
 std::string Summarize(const nlohmann::ordered_json& report);
+
+/**
+ * One line for people, of a mesh that was there.
+ *
+ * @param measurement of vtkSimplexMeshQuality; null: it was not measured
+ */
+std::string SummarizeMesh(vtkUnstructuredGrid* mesh, int dimension,
+  const nlohmann::ordered_json& measurement, const InputOutputTimes& times);
 
 } // namespace voxplex::cli
 

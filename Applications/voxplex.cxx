@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line program: label image in, mesh files out. See Documentation/Reference.md.
+// The command line program: label image or mesh in, mesh files and figures out. See Documentation/Reference.md.
 
 #include "CommandLine.h"
 #include "Errors.h"
+#include "ImageFile.h"
 #include "Interruption.h"
 #include "Measuring.h"
+#include "MeshReading.h"
 #include "Meshing.h"
+#include "OptionValues.h"
 #include "OutputFiles.h"
 #include "ParameterChecks.h"
 #include "ProcessMemory.h"
@@ -15,6 +18,7 @@
 #include "StatisticsReport.h"
 #include "WholeFiles.h"
 
+#include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkImageToSimplexMeshFilter.h>
@@ -23,6 +27,7 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
+#include <vtkPointData.h>
 #include <vtkSegmentationReader.h>
 #include <vtkSimplexMeshWriter.h>
 #include <vtkUnstructuredGrid.h>
@@ -30,6 +35,7 @@
 #include <chrono>
 #include <iostream>
 #include <optional>
+#include <vector>
 
 namespace voxplex::cli
 {
@@ -70,7 +76,8 @@ private:
 /** So that nothing that is read is overwritten. */
 void ProtectInputs(const io::WholeFiles& files, const Parameters& p)
 {
-  for (const std::string& path : { p.Input, p.SizeImage, p.Reading.LabelTable })
+  for (const std::string& path :
+    { p.Input, p.SizeImage, p.Reading.LabelTable, p.Mesh, p.MeshInterfaces })
   {
     files.ForbidOverwriting(path);
   }
@@ -85,20 +92,31 @@ void Announce(io::WholeFiles& files, const Parameters& p)
   ProtectInputs(files, p);
 }
 
-/** Slices are known only when the image has been read. */
-std::optional<SliceFiles> AnnounceSlices(
-  io::WholeFiles& files, const Parameters& p, vtkSegmentationReader* reader)
+/** Of the image. Without one those that the user gives, or the first and the last of a mesh. */
+std::vector<double> TimesOfFrames(
+  const Parameters& p, const MeshingInput& input, const MeshWithInterfaces& given)
+{
+  if (input.Labels)
+  {
+    return input.TimesOfFrames();
+  }
+  if (!p.Reading.FrameTimes.empty())
+  {
+    return p.Reading.FrameTimes;
+  }
+  const double* const range = given.Mesh->GetPointData()->GetArray("Time")->GetRange();
+  return { range[0], range[1] };
+}
+
+/** Slices are known only when the image or the mesh has been read. */
+std::optional<SliceFiles> AnnounceSlices(io::WholeFiles& files, const Parameters& p,
+  const MeshingInput& input, const MeshWithInterfaces& given)
 {
   if (p.Slices.empty())
   {
     return std::nullopt;
   }
-  std::vector<double> times;
-  for (int frame = 0; frame < reader->GetNumberOfFrames(); ++frame)
-  {
-    times.push_back(reader->GetTimeOfFrame(frame));
-  }
-  SliceFiles slices(p.Slices, times, p.SliceCount);
+  SliceFiles slices(p.Slices, TimesOfFrames(p, input, given), p.SliceCount);
   AnnounceFile(files, slices.Collection);
   for (const std::string& path : slices.Slices)
   {
@@ -121,13 +139,12 @@ std::optional<SlabFiles> AnnounceSlabs(io::WholeFiles& files, const Parameters& 
   return slabs;
 }
 
-void WriteSlabs(vtkImageToSimplexMeshFilter* filter, const SlabFiles& slabs, const Parameters& p,
+void WriteSlabs(const MeshWithInterfaces& mesh, const SlabFiles& slabs, const Parameters& p,
   io::WholeFiles& files)
 {
-  slabs.AnnounceOthers(files, filter->GetOutput());
+  slabs.AnnounceOthers(files, mesh.Mesh);
   ProtectInputs(files, p);
-  slabs.Write(
-    filter->GetOutput(), vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(1)), files);
+  slabs.Write(mesh.Mesh, mesh.Interfaces, files, p.Compress);
 }
 
 void Warn(const std::vector<std::string>& warnings)
@@ -156,7 +173,7 @@ void SetPlace(vtkSegmentationReader* reader, const ReadingOptions& options)
 }
 
 vtkSmartPointer<vtkSegmentationReader> ReadFile(
-  const std::string& path, const ReadingOptions& options)
+  const std::string& path, const ReadingOptions& options, UserInterface words)
 {
   const auto reader = vtkSmartPointer<vtkSegmentationReader>::New();
   reader->SetFileName(path.c_str());
@@ -170,20 +187,23 @@ vtkSmartPointer<vtkSegmentationReader> ReadFile(
   reader->SetDataFilesAnywhere(options.DataFilesAnywhere);
   reader->SetSpace(options.Space == io::Space::LPS ? vtkSegmentationReader::SPACE_LPS
                                                    : vtkSegmentationReader::SPACE_RAS);
-  Warn(ReadImage(reader, UserInterface::CommandLine));
+  Warn(ReadImage(reader, words));
   return reader;
 }
 
 MeshingInput Read(const Parameters& p)
 {
   MeshingInput input;
-  input.Labels = ReadFile(p.Input, p.Reading);
+  if (!p.Input.empty())
+  {
+    input.Labels = ReadFile(p.Input, p.Reading, p.Words);
+  }
   if (!p.SizeImage.empty())
   {
     ReadingOptions options; // where the sizes lie their own file says
     options.Space = p.Reading.Space;
     options.DataFilesAnywhere = p.Reading.DataFilesAnywhere;
-    input.Sizes = ReadFile(p.SizeImage, options);
+    input.Sizes = ReadFile(p.SizeImage, options, p.Words);
     if (input.Sizes->GetNumberOfFrames() > 1)
     {
       throw RunError("--size-image: '" + p.SizeImage +
@@ -216,14 +236,88 @@ auto CompleteOrExit(const Parameters& p, Work&& work)
   return result;
 }
 
-void WriteSlices(vtkUnstructuredGrid* mesh, const SliceFiles& slices, const io::WholeFiles& files)
+void WriteSlices(
+  vtkUnstructuredGrid* mesh, const SliceFiles& slices, bool compress, const io::WholeFiles& files)
 {
-  Slicer slicer(mesh);
+  Slicer slicer(mesh, compress);
   for (std::size_t i = 0; i < slices.Slices.size(); ++i)
   {
     slicer.Write(slices.Times[i], slices.Slices[i], files);
   }
   WriteCollection(slices, files);
+}
+
+/** The mesh that is there, if there is one; it must have the dimension of the image. */
+MeshWithInterfaces ReadMesh(const Parameters& p, const MeshingInput& input)
+{
+  if (p.Mesh.empty())
+  {
+    return {};
+  }
+  MeshWithInterfaces given = ReadMeshFiles(p.Mesh, p.MeshInterfaces);
+  if (input.Labels && input.Dimension() != given.Dimension())
+  {
+    throw UsageError(given.Dimension() == 4
+        ? "'" + p.Mesh + "' has pentatopes, but '" + p.Input + "' has no time frames"
+        : "'" + p.Input + "' has time frames, but '" + p.Mesh + "' has no pentatopes");
+  }
+  if (!p.Slabs.empty() && !given.Mesh->GetFieldData()->HasArray("TimePlanes"))
+  {
+    throw RunError("--slabs: the mesh in '" + p.Mesh + "' has no time planes");
+  }
+  return given;
+}
+
+/** Names of labels of the image, and the labels that are asked for. */
+io::LabelTable NameLabels(const Parameters& p, MeshingInput& input)
+{
+  if (!input.Labels)
+  {
+    return {};
+  }
+  vtkFieldData* const fields = input.Labels->GetOutput()->GetFieldData();
+  if (p.Has("isovalue")) // a table beside the image is about other numbers
+  {
+    io::SetLabelTable(fields, {});
+  }
+  io::LabelTable names = io::GetLabelTable(fields);
+  input.Selection = SelectLabels(p, names);
+  return names;
+}
+
+/** Writes the image that was read. */
+void SaveImage(const Parameters& p)
+{
+  io::WholeFiles files;
+  AnnounceFile(files, p.SavedImage);
+  ProtectInputs(files, p);
+  const MeshingInput input = Read(p);
+  WriteImage(input.Labels, files.TemporaryPath(p.SavedImage));
+  CommitFiles(files);
+}
+
+using Filter = vtkSmartPointer<vtkImageToSimplexMeshFilter>;
+
+/** Gives `mesh` what the filter has made. */
+Filter MakeMesh(const Parameters& p, const MeshingInput& input, MeshWithInterfaces& mesh)
+{
+  Filter filter =
+    CompleteOrExit(p, [&](const ProgressFunction& progress) { return Mesh(p, input, progress); });
+  mesh.Mesh = filter->GetOutput();
+  mesh.Interfaces = filter->GetOutputDataObject(1);
+  return filter;
+}
+
+/** Null if it is not asked for. */
+nlohmann::ordered_json MeasureMesh(
+  const Parameters& p, const MeshingInput& input, const MeshWithInterfaces& mesh)
+{
+  if (!p.Quality && (p.Mesh.empty() || p.Statistics.empty()))
+  {
+    return nullptr;
+  }
+  return CompleteOrExit(
+    p, [&](const ProgressFunction& progress) { return Measure(p, input, mesh.Mesh, progress); });
 }
 
 void Run(const Parameters& p)
@@ -234,66 +328,72 @@ void Run(const Parameters& p)
   InputOutputTimes times;
   const Stopwatch reading;
   MeshingInput input = Read(p);
+  MeshWithInterfaces mesh = ReadMesh(p, input);
   times.Read = reading.Seconds();
 
-  if (p.Has("isovalue")) // a table beside the image is about other numbers
-  {
-    io::SetLabelTable(input.Labels->GetOutput()->GetFieldData(), {});
-  }
-  const io::LabelTable names = io::GetLabelTable(input.Labels->GetOutput()->GetFieldData());
-  input.Selection = SelectLabels(p, names);
-
-  CheckDimension(p, input.Dimension());
-  const std::optional<SliceFiles> slices = AnnounceSlices(files, p, input.Labels);
+  const io::LabelTable names = NameLabels(p, input);
+  const int dimension = mesh.Mesh ? mesh.Dimension() : input.Dimension();
+  CheckDimension(p, dimension);
+  const std::optional<SliceFiles> slices = AnnounceSlices(files, p, input, mesh);
   const std::optional<SlabFiles> slabs = AnnounceSlabs(files, p);
-
-  const auto filter =
-    CompleteOrExit(p, [&](const ProgressFunction& progress) { return Mesh(p, input, progress); });
+  const Filter filter = mesh.Mesh ? Filter() : MakeMesh(p, input, mesh);
 
   const Stopwatch writing;
-  WriteMeshFiles(filter, p.Output, p.Interfaces, files);
+  using Writer = vtkSimplexMeshWriter;
+  WriteMeshFile(mesh.Mesh, mesh.Interfaces, Writer::CONTENT_MESH, p.Output, files, -1, p.Compress);
+  WriteMeshFile(
+    mesh.Mesh, mesh.Interfaces, Writer::CONTENT_INTERFACES, p.Interfaces, files, -1, p.Compress);
   if (slices)
   {
-    WriteSlices(filter->GetOutput(), *slices, files);
+    WriteSlices(mesh.Mesh, *slices, p.Compress, files);
   }
   if (slabs)
   {
-    WriteSlabs(filter, *slabs, p, files);
+    WriteSlabs(mesh, *slabs, p, files);
   }
   times.Write = writing.Seconds();
 
-  auto report = MakeReport(filter->GetStatistics(), p,
-    LabelReport{
-      input.Selection, names, p.Has("isovalue") ? "" : input.Labels->GetLabelTableSource() },
-    times);
-  std::string measured;
-  if (p.Quality)
+  nlohmann::ordered_json report;
+  if (filter)
   {
-    const auto measurement = CompleteOrExit(p,
-      [&](const ProgressFunction& progress)
-      { return Measure(p, input, filter->GetOutput(), progress); });
+    report = MakeReport(filter->GetStatistics(), p,
+      LabelReport{
+        input.Selection, names, p.Has("isovalue") ? "" : input.Labels->GetLabelTableSource() },
+      times);
+  }
+  const nlohmann::ordered_json measurement = MeasureMesh(p, input, mesh);
+  if (!filter)
+  {
+    report = measurement;
+  }
+  else if (p.Quality)
+  {
     AddMeasurement(measurement, report);
-    measured = SummarizeMeasurement(report);
   }
   if (!p.Statistics.empty())
   {
     WriteReport(report, p.Statistics, files);
   }
   CommitFiles(files);
-  Warn(WarningsOf(filter));
-  std::cout << Summarize(report) << measured << std::flush;
+  if (filter)
+  {
+    Warn(WarningsOf(filter));
+  }
+  std::cout << (filter ? Summarize(report) : SummarizeMesh(mesh.Mesh, dimension, report, times))
+            << (p.Quality ? SummarizeMeasurement(report) : "") << std::flush;
 }
 
 int Main(int argc, const char* const* argv)
 {
   Interruption::Install();
   SilenceVTK();
+  const UserInterface words = WordsOf(argc, argv);
   try
   {
     const CommandLine commandLine = ParseCommandLine(argc, argv);
     if (commandLine.Run)
     {
-      Run(*commandLine.Run);
+      commandLine.Run->SavedImage.empty() ? Run(*commandLine.Run) : SaveImage(*commandLine.Run);
     }
     else
     {
@@ -303,16 +403,17 @@ int Main(int argc, const char* const* argv)
   }
   catch (const UsageError& error)
   {
-    std::cerr << "voxplex: " << error.what() << "\nvoxplex: see voxplex --help\n";
+    std::cerr << "voxplex: " << NameOptions(words, error.what())
+              << (words == UserInterface::CommandLine ? "\nvoxplex: see voxplex --help\n" : "\n");
     return ExitUsage;
   }
   catch (const std::bad_alloc&)
   {
-    std::cerr << "voxplex: out of memory; try a larger --delta or --size\n";
+    std::cerr << NameOptions(words, "voxplex: out of memory; try a larger --delta or --size\n");
   }
   catch (const std::exception& error)
   {
-    std::cerr << "voxplex: " << error.what() << '\n';
+    std::cerr << "voxplex: " << NameOptions(words, error.what()) << '\n';
   }
   return ExitFailure;
 }

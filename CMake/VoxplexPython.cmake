@@ -20,42 +20,20 @@ vtk_module_wrap_python(
 
 # --- The layer in Python --------------------------------------------------------------------------
 
+include(CMake/VoxplexPythonLayer.cmake)
 file(RELATIVE_PATH _voxplex_program
   "/prefix/${VOXPLEX_PYTHON_DESTINATION}/voxplex" "/prefix/${CMAKE_INSTALL_BINDIR}/voxplex")
 set(_voxplex_python_folder "${CMAKE_BINARY_DIR}/${VOXPLEX_PYTHON_DESTINATION}/voxplex")
-set(_voxplex_python_files
-  __init__.py
-  __main__.py
-  arrays.py
-  errors.py
-  execution.py
-  files.py
-  frames.py
-  images.py
-  measuring.py
-  names.py
-  sources.py
-  py.typed
-  vtkVoxplex.pyi
-  vtkVoxplexIO.pyi)
-foreach (_voxplex_file IN LISTS _voxplex_python_files)
+voxplex_python_layer("${_voxplex_python_folder}" "${_voxplex_program}" "${VOXPLEX_PYTHON_DESTINATION}/voxplex" python)
+
+# Types of the wrapped classes.
+foreach (_voxplex_file IN ITEMS vtkVoxplex.pyi vtkVoxplexIO.pyi)
   configure_file("Python/voxplex/${_voxplex_file}" "${_voxplex_python_folder}/${_voxplex_file}" COPYONLY)
+  install(
+    FILES       "${_voxplex_python_folder}/${_voxplex_file}"
+    DESTINATION "${VOXPLEX_PYTHON_DESTINATION}/voxplex"
+    COMPONENT   python)
 endforeach ()
-configure_file(Python/voxplex/installation.py.in "${_voxplex_python_folder}/installation.py" @ONLY)
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
-add_custom_command(
-  OUTPUT "${_voxplex_python_folder}/meshing.py"
-  COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/Parameters/write_python.py"
-    "$<TARGET_FILE:voxplexParameters>" "${CMAKE_CURRENT_SOURCE_DIR}/Python/voxplex/meshing.py.in"
-    "${_voxplex_python_folder}/meshing.py"
-  DEPENDS voxplexParameters Parameters/write_python.py Python/voxplex/meshing.py.in
-  VERBATIM)
-add_custom_target(VoxplexMeshingPy ALL DEPENDS "${_voxplex_python_folder}/meshing.py")
-list(TRANSFORM _voxplex_python_files PREPEND "${_voxplex_python_folder}/")
-install(
-  FILES       ${_voxplex_python_files} "${_voxplex_python_folder}/installation.py" "${_voxplex_python_folder}/meshing.py"
-  DESTINATION "${VOXPLEX_PYTHON_DESTINATION}/voxplex"
-  COMPONENT   python)
 
 # What importlib.metadata and pip list read.
 set(_voxplex_dist_info "${VOXPLEX_PYTHON_DESTINATION}/voxplex-${VOXPLEX_VERSION}.dist-info")

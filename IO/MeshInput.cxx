@@ -4,6 +4,7 @@
 
 #include "FileError.h"
 #include "LabelTable.h"
+#include "MeshChecks.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -19,7 +20,6 @@
 #include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkVersion.h>
 
 #include <algorithm>
 #include <array>
@@ -68,72 +68,16 @@ void AddMeshArrays(vtkUnstructuredGrid* mesh, bool isSpaceTime)
   }
 }
 
-/** An array with one value for each cell or point; there are `count` of them. */
 vtkDataArray* RequireArray(vtkDataSetAttributes* attributes, const char* name, int components,
   vtkIdType count, const std::string& what)
 {
-  vtkDataArray* array = attributes->GetArray(name);
-  RefuseIf(!array || array->GetNumberOfComponents() != components, what, " no array '", name,
-    "' of ", components, (components == 1 ? " component" : " components"),
+  return CheckArray(attributes, name, components, count, what,
     "; give the outputs of the meshing filter, or write a .vtu file");
-  RefuseIf(array->GetNumberOfTuples() != count, what, " ", array->GetNumberOfTuples(), " values '",
-    name, "' for ", count, " cells or points");
-  return array;
-}
-
-/** Offsets and ids that a damaged file may have left anyhow. */
-void RequireVertices(vtkCellArray* cells, vtkPointSet* owner)
-{
-  if (cells->GetNumberOfCells() == 0)
-  {
-    return;
-  }
-  std::array<double, 2> offsets;
-  cells->GetOffsetsArray()->GetRange(offsets.data());
-  std::array<double, 2> ids{ 0.0, -1.0 };
-  if (cells->GetNumberOfConnectivityIds() > 0)
-  {
-    cells->GetConnectivityArray()->GetRange(ids.data());
-  }
-  RefuseIf(offsets[0] < 0 ||
-      offsets[1] > static_cast<double>(cells->GetNumberOfConnectivityIds()) || ids[0] < 0 ||
-      ids[1] >= static_cast<double>(owner->GetNumberOfPoints()),
-    "it has cells with vertices that are none of its points");
-}
-
-/** The type of each cell. */
-vtkDataArray* TypesOf(vtkUnstructuredGrid* grid)
-{
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
-  return grid->GetCellTypes();
-#else
-  return grid->GetCellTypesArray();
-#endif
 }
 
 void RequireCells(vtkUnstructuredGrid* grid, int type, vtkIdType size, const std::string& what)
 {
-  if (grid->GetNumberOfCells() == 0)
-  {
-    return;
-  }
-  RefuseIf(TypesOf(grid)->GetNumberOfTuples() != grid->GetNumberOfCells(),
-    "it has not as many types as cells");
-  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
-  {
-    RefuseIf(grid->GetCellType(cell) != type || grid->GetCells()->GetCellSize(cell) != size, what,
-      ", and cell ", cell, " is none; write a .vtu file");
-  }
-  RequireVertices(grid->GetCells(), grid);
-}
-
-void RequireTriangles(vtkPolyData* surface)
-{
-  vtkCellArray* polygons = surface->GetPolys();
-  const bool isOther = surface->GetNumberOfCells() != polygons->GetNumberOfCells();
-  RefuseIf(isOther || (polygons->GetNumberOfCells() > 0 && polygons->IsHomogeneous() != 3),
-    "the interfaces must be triangles in this format; write a .vtp file");
-  RequireVertices(polygons, surface);
+  CheckCells(grid, type, size, what, "; write a .vtu file");
 }
 
 /** VTK's own writers rely on these. */
@@ -143,34 +87,13 @@ void RequireCells(vtkPolyData* surface)
     { surface->GetLines(), 2 }, { surface->GetPolys(), 3 }, { surface->GetStrips(), 3 } } };
   for (const auto& [cells, leastSize] : kinds)
   {
-    RequireVertices(cells, surface);
+    CheckVertices(cells, surface);
     for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
     {
       RefuseIf(
         cells->GetCellSize(cell) < leastSize, "it has cells with fewer vertices than they need");
     }
   }
-}
-
-/** Whether all numbers, which may be none, are ids of the mesh's points. */
-bool ArePoints(vtkDataArray* ids, vtkIdType numberOfPoints)
-{
-  bool are = true;
-  for (vtkIdType i = 0; are && i < ids->GetNumberOfValues(); ++i)
-  {
-    const int components = ids->GetNumberOfComponents();
-    const double id = ids->GetComponent(i / components, static_cast<int>(i % components));
-    are = id >= 0 && id < static_cast<double>(numberOfPoints);
-  }
-  return are;
-}
-
-void RequirePointIds(vtkDataSet* interfaces, vtkIdType numberOfPoints)
-{
-  vtkDataArray* ids = RequireArray(interfaces->GetPointData(), "PointIds", 1,
-    interfaces->GetNumberOfPoints(), "the interfaces have");
-  RefuseIf(!ArePoints(ids, numberOfPoints),
-    "the interfaces are not those of this mesh: their PointIds are not its points");
 }
 
 /** Arrays of time planes, if the mesh has them. */
@@ -205,9 +128,10 @@ void EnsurePoints(vtkSmartPointer<TGrid>& grid)
 
 } // namespace
 
-MeshInput::MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces, int slab)
+MeshInput::MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces, int slab, bool compress)
   : Dimension(3)
   , Slab(slab)
+  , Compress(compress)
   , Space(SpaceOf(mesh))
   , Mesh(vtkUnstructuredGrid::SafeDownCast(mesh))
   , Triangles(vtkPolyData::SafeDownCast(interfaces))
@@ -276,11 +200,14 @@ void MeshInput::Check(Content content, const std::string& name) const
     {
       interfaces = this->Tetrahedra;
     }
-    RequirePointIds(interfaces, this->Mesh->GetNumberOfPoints());
+    RequireArray(interfaces->GetPointData(), "PointIds", 1, interfaces->GetNumberOfPoints(),
+      "the interfaces have");
+    CheckPointIds(interfaces, this->Mesh->GetNumberOfPoints());
   }
   if (this->Dimension == 3)
   {
-    RequireTriangles(this->Triangles);
+    CheckTriangles(
+      this->Triangles, "the interfaces must be triangles in this format; write a .vtp file");
     RequireArray(this->Triangles->GetCellData(), "Labels", 2, this->Triangles->GetNumberOfCells(),
       "the interfaces have");
   }
@@ -317,13 +244,14 @@ void MeshInput::Write(Content content, const std::string& name, const std::strin
 {
   if (this->Dimension == 3)
   {
-    WriteFile(
-      MeshData{ this->Mesh, this->Triangles, this->Space }, content, name, path, companionPath);
+    WriteFile(MeshData{ this->Mesh, this->Triangles, this->Space, this->Compress }, content, name,
+      path, companionPath);
   }
   else
   {
-    WriteFile(SpaceTimeMeshData{ this->Mesh, this->Tetrahedra, this->Space, this->Slab }, content,
-      name, path);
+    WriteFile(
+      SpaceTimeMeshData{ this->Mesh, this->Tetrahedra, this->Space, this->Slab, this->Compress },
+      content, name, path);
   }
 }
 

@@ -25,9 +25,10 @@ public:
   /**
    * @param mesh, interfaces as vtkSimplexMeshWriter describes them; either may be null
    * @param slab the only slab to write; -1: the whole mesh
+   * @param compress .vtu and .vtp files
    * @throws FileError if they are of different dimensions
    */
-  MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces, int slab = -1);
+  MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces, int slab = -1, bool compress = true);
 
   /**
    * Checks what the format of this name relies on: cells of the one right type, and the arrays.
@@ -45,6 +46,7 @@ private:
 
   int Dimension;
   int Slab;
+  bool Compress;
   std::string Space;
   vtkSmartPointer<vtkUnstructuredGrid> Mesh;
   vtkSmartPointer<vtkPolyData> Triangles;          ///< of a 3D mesh

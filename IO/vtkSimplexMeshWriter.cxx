@@ -21,6 +21,7 @@ vtkSimplexMeshWriter::vtkSimplexMeshWriter()
   , TemporaryCompanionFileName(nullptr)
   , Content(CONTENT_MESH)
   , Slab(-1)
+  , Compress(true)
 {
   this->SetNumberOfInputPorts(2);
 }
@@ -38,6 +39,7 @@ void vtkSimplexMeshWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n"
      << indent << "Content: " << (this->Content == CONTENT_MESH ? "mesh" : "interfaces") << "\n"
      << indent << "Slab: " << this->Slab << "\n"
+     << indent << "Compress: " << (this->Compress ? "on" : "off") << "\n"
      << indent
      << "TemporaryFileName: " << (this->TemporaryFileName ? this->TemporaryFileName : "(none)")
      << "\n"
@@ -100,7 +102,8 @@ void vtkSimplexMeshWriter::WriteData()
   const auto content = static_cast<voxplex::io::Content>(this->Content);
   try
   {
-    const voxplex::io::MeshInput input(this->GetInput(0), this->GetInput(1), this->Slab);
+    const voxplex::io::MeshInput input(
+      this->GetInput(0), this->GetInput(1), this->Slab, this->Compress);
     input.Check(content, this->FileName);
     const std::string companionName = CompanionOf(this->FileName);
     if (this->TemporaryFileName)

@@ -85,6 +85,16 @@ public:
 
   ///@{
   /**
+   * Whether .vtu and .vtp files are compressed. Default on. Without compression they are larger, and faster to
+   * write and to read.
+   */
+  vtkSetMacro(Compress, bool);
+  vtkGetMacro(Compress, bool);
+  vtkBooleanMacro(Compress, bool);
+  ///@}
+
+  ///@{
+  /**
    * For programs that move several files to their places at once: where to write what is to become FileName,
    * which still chooses the format and stands in messages. The file stays there. Default: none, a hidden
    * name beside FileName, which is then changed.
@@ -134,6 +144,7 @@ protected:
   char* TemporaryCompanionFileName;
   int Content;
   int Slab;
+  bool Compress;
 
 private:
   vtkSimplexMeshWriter(const vtkSimplexMeshWriter&) = delete;

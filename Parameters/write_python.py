@@ -4,7 +4,7 @@
 """Fills the parameters of meshing into a file of Python: write_python.py PROGRAM TEMPLATE OUTPUT
 
 PROGRAM prints the table of parameters as JSON. In the template, @PARAMETERS@ stands for those of a function, @DESCRIPTIONS@ for
-their part of its docstring, and @PROPERTIES@ for what the filters call them.
+their part of its docstring, and @OPTIONS@ for what the program calls them.
 """
 import json
 import subprocess
@@ -13,8 +13,7 @@ import textwrap
 from pathlib import Path
 
 TYPES = {"flag": "bool", "real": "float", "whole": "int", "bytes": "int", "word": "str", "labels": "Iterable[Label]",
-         "label-sizes": "Mapping[Label, float]", "interface-sizes": "Mapping[Interface, float]", "image": "SizeImage"}
-LISTS = ("labels", "label-sizes", "interface-sizes", "image")
+         "label-sizes": "Mapping[Label, float]", "interface-sizes": "Mapping[Interface, float]", "image": "Any"}
 
 
 def signature(table):
@@ -34,16 +33,20 @@ def descriptions(table):
     return "\n".join(lines).lstrip()
 
 
-def properties(table):
-    """Not of lists, which have methods of their own."""
-    return "\n".join(f"    \"{p['python']}\": _Property(\"{p['property']}\", {p['dimension']}, {tuple(p['words'])!r}),"
-                     for p in table if p["kind"] not in LISTS).lstrip()
+def options(table):
+    """Where 0 stands for the default, it is not a value of the option."""
+    rows = []
+    for p in table:
+        low = p["range"][0]
+        zero = bool(p["zero"]) and low is not None and (low > 0 or p["low_is_outside"])
+        rows.append(f"    \"{p['python']}\": _Option(\"{p['option']}\", \"{p['kind']}\", {p['default'] == 'on'}, {zero}),")
+    return "\n".join(rows).lstrip()
 
 
 def main(program, template, output):
     table = [p for p in json.loads(subprocess.run([program], check=True, capture_output=True, text=True).stdout) if p["python"]]
     text = Path(template).read_text(encoding="utf-8")
-    for name, write in (("PARAMETERS", signature), ("DESCRIPTIONS", descriptions), ("PROPERTIES", properties)):
+    for name, write in (("PARAMETERS", signature), ("DESCRIPTIONS", descriptions), ("OPTIONS", options)):
         text = text.replace(f"@{name}@", write(table))
     Path(output).write_text(text, encoding="utf-8")
 

@@ -5,6 +5,7 @@
 #include "Placement.h"
 #include "Text.h"
 #include "VTKFileStructure.h"
+#include "VTKMessages.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -13,8 +14,6 @@
 #include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
@@ -29,127 +28,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <mutex>
 #include <sstream>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 namespace voxplex::io
 {
 namespace
 {
-
-// --- What VTK says
-
-class CollectingWindow : public vtkOutputWindow
-{
-public:
-  static CollectingWindow* New();
-  vtkTypeMacro(CollectingWindow, vtkOutputWindow);
-
-  void DisplayText(const char* text) override { this->PassOn(&vtkOutputWindow::DisplayText, text); }
-  void DisplayDebugText(const char* text) override
-  {
-    this->PassOn(&vtkOutputWindow::DisplayDebugText, text);
-  }
-  void DisplayWarningText(const char* text) override
-  {
-    this->Collect(this->Warnings, &vtkOutputWindow::DisplayWarningText, text);
-  }
-  void DisplayErrorText(const char* text) override
-  {
-    this->Collect(this->Errors, &vtkOutputWindow::DisplayErrorText, text);
-  }
-  /** VTK's functions without an object, which read arrays, have no errors but these. */
-  void DisplayGenericWarningText(const char* text) override
-  {
-    this->Collect(this->Errors, &vtkOutputWindow::DisplayGenericWarningText, text);
-  }
-
-  std::vector<std::string> Errors;
-  std::vector<std::string> Warnings;
-  vtkSmartPointer<vtkOutputWindow> Others; ///< is told what other threads say
-
-private:
-  using Display = void (vtkOutputWindow::*)(const char*);
-
-  void PassOn(Display display, const char* text)
-  {
-    if (std::this_thread::get_id() != this->Reader)
-    {
-      (this->Others->*display)(text);
-    }
-  }
-
-  void Collect(std::vector<std::string>& list, Display display, const char* text)
-  {
-    constexpr std::size_t enough = 100;
-    if (std::this_thread::get_id() == this->Reader && list.size() < enough)
-    {
-      list.push_back(Shorten(text));
-    }
-    this->PassOn(display, text);
-  }
-
-  /** Without the source file, its line, the class and the address of the object. */
-  static std::string Shorten(std::string_view text)
-  {
-    const std::size_t line = text.find('\n');
-    text = line == text.npos ? text : text.substr(line + 1);
-    const std::size_t object = text.find("): ");
-    text = object == text.npos ? text : text.substr(object + 3);
-    return Excerpt(text.substr(0, text.find('\n')), 200);
-  }
-
-  std::thread::id Reader = std::this_thread::get_id();
-};
-
-vtkStandardNewMacro(CollectingWindow);
-
-/** For as long as it lives. One thread reads at a time. */
-class Messages
-{
-public:
-  Messages()
-    : Turn(OneAtATime())
-    , AreShown(vtkObject::GetGlobalWarningDisplay())
-  {
-    this->Window->Others = vtkOutputWindow::GetInstance();
-    vtkOutputWindow::SetInstance(this->Window);
-    vtkObject::SetGlobalWarningDisplay(1); // else VTK says nothing
-  }
-
-  ~Messages()
-  {
-    vtkObject::SetGlobalWarningDisplay(this->AreShown);
-    vtkOutputWindow::SetInstance(this->Window->Others);
-  }
-
-  Messages(const Messages&) = delete;
-  Messages& operator=(const Messages&) = delete;
-
-  void CheckErrors() const
-  {
-    if (!this->Window->Errors.empty())
-    {
-      Refuse("VTK does not read it: ", this->Window->Errors.front());
-    }
-  }
-
-  const std::vector<std::string>& Warnings() const { return this->Window->Warnings; }
-
-private:
-  static std::mutex& OneAtATime()
-  {
-    static std::mutex mutex;
-    return mutex;
-  }
-
-  std::unique_lock<std::mutex> Turn;
-  int AreShown;
-  vtkNew<CollectingWindow> Window;
-};
 
 // --- Which reader
 
@@ -201,7 +87,7 @@ void CheckClaim(vtkAlgorithm* reader, std::uint64_t size, double mostOfAByte)
     " bytes");
 }
 
-vtkSmartPointer<vtkImageData> ReadLegacy(const InputFile& file, const Messages& messages)
+vtkSmartPointer<vtkImageData> ReadLegacy(const InputFile& file, const VTKMessages& messages)
 {
   vtkNew<vtkStructuredPointsReader> reader;
   reader->SetFileName(file.Path().c_str());
@@ -214,7 +100,7 @@ vtkSmartPointer<vtkImageData> ReadLegacy(const InputFile& file, const Messages& 
   return reader->GetOutput();
 }
 
-vtkSmartPointer<vtkImageData> ReadXML(const InputFile& file, const Messages& messages)
+vtkSmartPointer<vtkImageData> ReadXML(const InputFile& file, const VTKMessages& messages)
 {
   CheckStructureOfVTI(file);
   vtkNew<vtkXMLImageDataReader> reader;
@@ -403,7 +289,7 @@ ScalarImage ReadVTK(const std::string& path, Reading& reading)
   {
     CheckKindOfVTK(LegacyType(beginning), "STRUCTURED_POINTS");
   }
-  const Messages messages;
+  const VTKMessages messages;
   const vtkSmartPointer<vtkImageData> image =
     isLegacy ? ReadLegacy(file, messages) : ReadXML(file, messages);
   for (const std::string& warning : messages.Warnings())

@@ -21,6 +21,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace voxplex::io
@@ -62,7 +63,13 @@ bool IsBlank(char letter)
   return letter == ' ' || letter == '\n' || letter == '\r' || letter == '\t';
 }
 
-constexpr std::size_t LettersOfCount = 12; // are enough for either size
+constexpr std::size_t LettersOfCounts = 32; // are enough for three of either size
+
+/** What an array begins with: its bytes; if it is compressed its blocks, the size of each and that of the last. */
+using Counts = std::array<std::uint64_t, 3>;
+
+/** Any compressor's. */
+constexpr double MostOfAByte = 65536.0;
 
 /** Those of arrays in base64, among blanks. */
 struct Letters
@@ -85,7 +92,7 @@ struct Letters
         continue;
       }
       this->IsInterrupted = this->IsInterrupted || this->HasBlank || !isBase64;
-      this->Beginning.append(this->Length++ < LettersOfCount ? 1 : 0, letter);
+      this->Beginning.append(this->Length++ < LettersOfCounts ? 1 : 0, letter);
     }
   }
 };
@@ -102,6 +109,7 @@ struct Structure
   std::size_t BytesOfCount = 4; ///< before the bytes of an array
   std::string WholeExtent;
   std::vector<std::string> Extents;   ///< of each piece
+  double MostClaimed = 0;             ///< of points, or of cells of a kind
   std::vector<std::uint64_t> Offsets; ///< of arrays in the appended data
   bool IsAppended = false;
   bool IsBase64 = false;
@@ -110,32 +118,46 @@ struct Structure
   std::optional<Letters> OfBase64; ///< inside an array in base64
   bool IsInterrupted = false;      ///< what is in base64 has blanks or other letters within
   std::optional<Limits> OfText;    ///< inside an array of text: of its numbers
+  int Nested = 0;                  ///< open elements inside of that array: keys of information
   std::string Word;                ///< the last of them
-  std::vector<std::array<std::uint64_t, 2>> Inline; ///< of each: the bytes that it claims, and has
+  std::vector<std::pair<Counts, std::uint64_t>> Inline; ///< of each: what it claims, its bytes
 };
 
-/** The number of bytes that an array claims, of which these are the first. */
-std::uint64_t DecodeCount(const std::string& text, bool isBase64, const Structure& structure)
+/** What an array claims, of which these are the first bytes. */
+Counts DecodeCounts(const std::string& text, bool isBase64, const Structure& structure)
 {
   std::string bytes = text;
-  bytes.resize(LettersOfCount, isBase64 ? 'A' : '\0');
+  bytes.resize(LettersOfCounts, isBase64 ? 'A' : '\0');
   if (isBase64)
   {
     auto* data = reinterpret_cast<unsigned char*>(bytes.data());
-    vtkBase64Utilities::DecodeSafely(data, LettersOfCount, data, LettersOfCount / 4 * 3);
+    vtkBase64Utilities::DecodeSafely(data, LettersOfCounts, data, LettersOfCounts / 4 * 3);
   }
   const Fields fields(bytes, structure.IsBigEndian);
-  return structure.BytesOfCount == 8 ? fields.Get<std::uint64_t>(0) : fields.Get<std::uint32_t>(0);
+  const auto count = [&](std::size_t i) -> std::uint64_t
+  {
+    const std::size_t at = i * structure.BytesOfCount;
+    return structure.BytesOfCount == 8 ? fields.Get<std::uint64_t>(at)
+                                       : fields.Get<std::uint32_t>(at);
+  };
+  return { count(0), count(1), count(2) };
 }
 
-/** What is compressed begins with the number of blocks, and has a size for each; VTK notices itself if blocks are
- * short. */
-void CheckCount(std::uint64_t count, std::uint64_t bytes, const Structure& structure)
+/** VTK looks for the last block by its size, and notices itself if blocks are short. */
+void CheckCounts(const Counts& counts, std::uint64_t bytes, const Structure& structure)
 {
+  const auto& [count, size, last] = counts;
   const std::uint64_t most = bytes - std::min<std::uint64_t>(bytes, structure.BytesOfCount);
   RefuseIf(count > (structure.IsCompressed ? most / structure.BytesOfCount : most), Damaged,
     "an array claims ", count, (structure.IsCompressed ? " blocks" : " bytes"), ", and has ", bytes,
     " bytes");
+  const double total =
+    (static_cast<double>(count) - 1) * static_cast<double>(size) + static_cast<double>(last);
+  const bool fits = count == 0
+    ? last == 0
+    : size > 0 && last <= size && total <= MostOfAByte * static_cast<double>(bytes);
+  RefuseIf(structure.IsCompressed && !fits, Damaged, "an array claims ", count, " blocks of ", size,
+    " bytes, the last of ", last, ", and has ", bytes, " bytes");
 }
 
 Structure& At(void* data)
@@ -221,10 +243,26 @@ void StartArray(Structure& structure, const char** attributes)
   }
 }
 
+/** A piece that may be one of a mesh. */
+void StartMesh(Structure& structure, const char** attributes)
+{
+  for (const char* const name : { "NumberOfPoints", "NumberOfCells", "NumberOfVerts",
+         "NumberOfLines", "NumberOfStrips", "NumberOfPolys" })
+  {
+    CheckNumbers(structure, attributes, name, 1, { 0 });
+    const auto number = ToNumber<double>(Attribute(attributes, name));
+    structure.MostClaimed = std::max(structure.MostClaimed, number.value_or(0));
+  }
+}
+
 void StartElement(void* data, const char* elementName, const char** attributes)
 {
   Structure& structure = At(data);
   const std::string_view name(elementName);
+  if (structure.OfBase64 || structure.OfText)
+  {
+    ++structure.Nested;
+  }
   if (name == "VTKFile")
   {
     structure.Kind = Attribute(attributes, "type");
@@ -242,12 +280,13 @@ void StartElement(void* data, const char* elementName, const char** attributes)
   else if (name == "Piece")
   {
     structure.Extents.push_back(Normalize(Attribute(attributes, "Extent")));
+    StartMesh(structure, attributes);
   }
   else if (name == "FieldData" || name == "PointData" || name == "CellData")
   {
     structure.IsInFields = name == "FieldData";
   }
-  else if (name == "DataArray" || name == "Array")
+  else if ((name == "DataArray" || name == "Array") && structure.Nested == 0)
   {
     StartArray(structure, attributes);
   }
@@ -274,6 +313,10 @@ void CheckWord(Structure& structure)
 void AddText(void* data, const char* text, int length)
 {
   Structure& structure = At(data);
+  if (structure.Nested > 0)
+  {
+    return;
+  }
   if (structure.OfBase64)
   {
     structure.OfBase64->Add({ text, static_cast<std::size_t>(length) });
@@ -295,10 +338,15 @@ void AddText(void* data, const char* text, int length)
 void EndElement(void* data, const char* /*name*/)
 {
   Structure& structure = At(data);
+  if (structure.Nested > 0)
+  {
+    --structure.Nested;
+    return;
+  }
   if (const std::optional<Letters>& letters = structure.OfBase64)
   {
     structure.Inline.push_back(
-      { DecodeCount(letters->Beginning, true, structure), letters->Length / 4 * 3 });
+      { DecodeCounts(letters->Beginning, true, structure), letters->Length / 4 * 3 });
     structure.IsInterrupted = structure.IsInterrupted || letters->IsInterrupted;
     structure.OfBase64.reset();
   }
@@ -394,11 +442,32 @@ void CheckAppendedData(const InputFile& file, Structure& structure)
   for (const std::uint64_t offset : structure.Offsets)
   {
     RefuseIf(offset >= length, Damaged, "an array begins beyond the end");
-    const std::string first = ReadText(
-      file, data.Begin + offset, structure.IsBase64 ? LettersOfCount : structure.BytesOfCount);
-    CheckCount(DecodeCount(first, structure.IsBase64, structure),
+    const std::string first = ReadText(file, data.Begin + offset, LettersOfCounts);
+    CheckCounts(DecodeCounts(first, structure.IsBase64, structure),
       structure.IsBase64 ? (length - offset) / 4 * 3 : length - offset, structure);
   }
+}
+
+void CheckPieces(const Structure& structure)
+{
+  RefuseIf(!structure.Wrong.empty(), "it has ", structure.Wrong, ", which cannot be: correct it");
+  RefuseIf(structure.Extents.size() != 1, "it is stored in ", structure.Extents.size(),
+    " pieces: save it in one");
+}
+
+void CheckArrays(const InputFile& file, Structure& structure)
+{
+  for (const auto& [counts, bytes] : structure.Inline)
+  {
+    CheckCounts(counts, bytes, structure);
+  }
+  if (structure.IsAppended)
+  {
+    CheckAppendedData(file, structure);
+  }
+  RefuseIf(structure.IsInterrupted,
+    "its data in base64 have line breaks or foreign letters within, which VTK does not read: save "
+    "it in the encoding raw");
 }
 
 } // namespace
@@ -414,22 +483,20 @@ void CheckStructureOfVTI(const InputFile& file)
 {
   Structure structure = Parse(file);
   CheckKindOfVTK(structure.Kind, "ImageData");
-  RefuseIf(!structure.Wrong.empty(), "it has ", structure.Wrong, ", which cannot be: correct it");
-  RefuseIf(structure.Extents.size() != 1, "it is stored in ", structure.Extents.size(),
-    " pieces: save it in one");
+  CheckPieces(structure);
   RefuseIf(structure.Extents.front() != structure.WholeExtent, Damaged, "it has the extent ",
     Excerpt(structure.WholeExtent), ", and its piece ", Excerpt(structure.Extents.front()));
-  for (const auto& [count, bytes] : structure.Inline)
-  {
-    CheckCount(count, bytes, structure);
-  }
-  if (structure.IsAppended)
-  {
-    CheckAppendedData(file, structure);
-  }
-  RefuseIf(structure.IsInterrupted,
-    "its data in base64 have line breaks or foreign letters within, which VTK does not read: save "
-    "it in the encoding raw");
+  CheckArrays(file, structure);
+}
+
+void CheckStructureOfMesh(const InputFile& file, std::string_view kind)
+{
+  Structure structure = Parse(file);
+  RefuseIf(structure.Kind != kind, "it holds ", Excerpt(structure.Kind), ", and not ", kind);
+  CheckPieces(structure);
+  RefuseIf(structure.MostClaimed > MostOfAByte * static_cast<double>(file.Size()), Damaged,
+    "it claims ", structure.MostClaimed, " points or cells, and has ", file.Size(), " bytes");
+  CheckArrays(file, structure);
 }
 
 } // namespace voxplex::io

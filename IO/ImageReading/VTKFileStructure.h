@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file VTKFileStructure.h
- * @brief Whether a .vti file is whole.
+ * @brief Whether a .vti, .vtu or .vtp file is whole.
  *
- * VTK's reader leaves voxels as they were where no piece has them, and where data end before they should.
+ * VTK's reader leaves numbers as they were where no piece has them, and where data end before they should.
  */
 #ifndef voxplex_io_VTKFileStructure_h
 #define voxplex_io_VTKFileStructure_h
@@ -25,6 +25,13 @@ void CheckKindOfVTK(const std::string& kind, std::string_view wanted);
  * the image, arrays that are shorter than they claim, of unknown types, or with numbers that their type does not hold
  */
 void CheckStructureOfVTI(const InputFile& file);
+
+/**
+ * The same for meshes, whose piece has numbers of points and cells that the file can hold.
+ *
+ * @param kind what the file must hold: UnstructuredGrid or PolyData
+ */
+void CheckStructureOfMesh(const InputFile& file, std::string_view kind);
 
 } // namespace voxplex::io
 

@@ -46,7 +46,7 @@ constexpr std::array Formats{
   Format{ Content::Mesh, ".feb", WriteFEBio, nullptr },
   Format{ Content::Mesh, ".xdmf", nullptr, nullptr, ".h5", WriteXDMF },
   Format{ Content::Interfaces, ".vtp", WriteVTP, nullptr },
-  Format{ Content::Interfaces, ".vtu", nullptr, WriteSpaceTimeBoundaryVTU },
+  Format{ Content::Interfaces, ".vtu", WriteInterfacesVTU, WriteSpaceTimeBoundaryVTU },
   Format{ Content::Interfaces, ".stl", WriteSTL, nullptr },
   Format{ Content::Interfaces, ".ply", WritePLY, nullptr },
   Format{ Content::Interfaces, ".vtk", WriteLegacyVTKInterfaces, nullptr },

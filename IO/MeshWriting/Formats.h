@@ -30,7 +30,8 @@ struct MeshData
 {
   vtkUnstructuredGrid* Tetrahedra;
   vtkPolyData* Interfaces;
-  std::string Space; ///< "LPS" or "RAS"
+  std::string Space;    ///< "LPS" or "RAS"
+  bool Compress = true; ///< .vtu and .vtp files
 };
 
 /** Both outputs of vtkImageToPentatopeMeshFilter; neither is null. */
@@ -38,8 +39,9 @@ struct SpaceTimeMeshData
 {
   vtkUnstructuredGrid* Pentatopes;
   vtkUnstructuredGrid* Boundary;
-  std::string Space; ///< "LPS" or "RAS"
-  int Slab = -1;     ///< the only slab to write; -1: the whole mesh
+  std::string Space;    ///< "LPS" or "RAS"
+  int Slab = -1;        ///< the only slab to write; -1: the whole mesh
+  bool Compress = true; ///< .vtu files
 };
 
 /** The extension of a file name in lower case, with its dot; empty if it has none. */

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// VTK's writers: .vtu and .vtp files (appended raw data, compressed with zlib, 64-bit block headers), .vtk files
+// VTK's writers: .vtu and .vtp files (appended raw data, 64-bit headers, compressed with zlib or as they are), .vtk files
 // (binary, version 4.2 of the format, which more programs read than 5.1), and .stl files (binary, all interfaces in one
 // solid).
 //
@@ -20,6 +20,7 @@
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataWriter.h>
 #include <vtkSTLWriter.h>
@@ -107,12 +108,12 @@ void Run(TWriter* writer, vtkDataSet* data, const std::string& path)
 }
 
 template <typename TWriter>
-void WriteXML(vtkDataSet* data, const std::string& path)
+void WriteXML(vtkDataSet* data, bool compress, const std::string& path)
 {
   vtkNew<TWriter> writer;
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
+  writer->SetCompressorType(compress ? TWriter::ZLIB : TWriter::NONE);
   writer->SetHeaderTypeToUInt64();
   Run(writer.Get(), data, path);
 }
@@ -215,33 +216,46 @@ vtkSmartPointer<vtkUnstructuredGrid> WithSurfaces(vtkUnstructuredGrid* boundary)
 
 } // namespace
 
-void WriteGrid(vtkUnstructuredGrid* grid, const std::string& path)
+void WriteGrid(vtkUnstructuredGrid* grid, bool compress, const std::string& path)
 {
   // 3D Slicer takes RAS from a string only, and LPS where there is none.
   const bool isLPS = TextsOf(grid->GetFieldData(), "SPACE") == std::vector<std::string>{ "LPS" };
   WriteXML<vtkXMLUnstructuredGridWriter>(
-    WithTextForms(grid, TextForm::Bytes, isLPS ? TextForm::Bytes : TextForm::Strings), path);
+    WithTextForms(grid, TextForm::Bytes, isLPS ? TextForm::Bytes : TextForm::Strings), compress,
+    path);
 }
 
 void WriteVTU(const MeshData& mesh, const std::string& path)
 {
-  WriteGrid(mesh.Tetrahedra, path);
+  WriteGrid(mesh.Tetrahedra, mesh.Compress, path);
 }
 
 void WriteVTP(const MeshData& mesh, const std::string& path)
 {
   WriteXML<vtkXMLPolyDataWriter>(
-    WithTextForms(mesh.Interfaces, TextForm::Strings, TextForm::Strings), path);
+    WithTextForms(mesh.Interfaces, TextForm::Strings, TextForm::Strings), mesh.Compress, path);
+}
+
+void WriteInterfacesVTU(const MeshData& mesh, const std::string& path)
+{
+  vtkNew<vtkUnstructuredGrid> triangles;
+  triangles->SetPoints(mesh.Interfaces->GetPoints());
+  triangles->SetCells(VTK_TRIANGLE, mesh.Interfaces->GetPolys());
+  triangles->GetPointData()->ShallowCopy(mesh.Interfaces->GetPointData());
+  triangles->GetCellData()->ShallowCopy(mesh.Interfaces->GetCellData());
+  triangles->SetFieldData(mesh.Interfaces->GetFieldData());
+  WriteGrid(triangles, mesh.Compress, path);
 }
 
 void WriteSpaceTimeVTU(const SpaceTimeMeshData& mesh, const std::string& path)
 {
-  WriteGrid(mesh.Slab < 0 ? mesh.Pentatopes : ExtractSlab(mesh.Pentatopes, mesh.Slab).Get(), path);
+  WriteGrid(mesh.Slab < 0 ? mesh.Pentatopes : ExtractSlab(mesh.Pentatopes, mesh.Slab).Get(),
+    mesh.Compress, path);
 }
 
 void WriteSpaceTimeBoundaryVTU(const SpaceTimeMeshData& mesh, const std::string& path)
 {
-  WriteGrid(WithSurfaces(mesh.Boundary), path);
+  WriteGrid(WithSurfaces(mesh.Boundary), mesh.Compress, path);
 }
 
 void WriteLegacyVTKMesh(const MeshData& mesh, const std::string& path)

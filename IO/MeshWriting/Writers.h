@@ -19,6 +19,7 @@ namespace voxplex::io
 
 void WriteVTU(const MeshData& mesh, const std::string& path);
 void WriteVTP(const MeshData& mesh, const std::string& path);
+void WriteInterfacesVTU(const MeshData& mesh, const std::string& path);
 void WriteLegacyVTKMesh(const MeshData& mesh, const std::string& path);
 void WriteLegacyVTKInterfaces(const MeshData& mesh, const std::string& path);
 void WriteSTL(const MeshData& mesh, const std::string& path);
@@ -42,7 +43,7 @@ void WriteSpaceTimeMFEM(const SpaceTimeMeshData& mesh, const std::string& path);
 void WriteGMF(const SpaceTimeMeshData& mesh, const std::string& path);
 
 /** Any grid as a .vtu file. */
-void WriteGrid(vtkUnstructuredGrid* grid, const std::string& path);
+void WriteGrid(vtkUnstructuredGrid* grid, bool compress, const std::string& path);
 
 } // namespace voxplex::io
 

@@ -5,41 +5,49 @@
     import voxplex
 
     mesh = voxplex.mesh("knee.nrrd", delta=1.5, label_sizes={3: 1.0})
-    voxplex.write(mesh, "knee.vtu")
+    mesh.write("knee.vtu")
 
-:func:`mesh` turns a segmented image (a vtkImageData, a NumPy array or a file) into a
-vtkUnstructuredGrid of tetrahedra, and a time series into one of pentatopes. `points`, `tets`,
-`labels` and their siblings show it as NumPy arrays that share its memory. :func:`quality` measures it.
+:func:`mesh` turns a segmented image (an array, a file, an image of VTK, PyVista, ITK or SimpleITK) into a :class:`Mesh` of
+tetrahedra, and a time series into one of pentatopes: NumPy arrays, which VTK, PyVista and meshio take as they are.
+:func:`quality` measures a mesh.
 
-Beside these functions there are the wrapped VTK classes, for pipelines: `vtkImageToTetMeshFilter`,
-`vtkImageToPentatopeMeshFilter`, `vtkPentatopeMeshTimeSlice`, `vtkSimplexMeshQuality` and, where files can be read
-(`HAVE_IO`), `vtkSegmentationReader` and `vtkSimplexMeshWriter`. They work together with those of
-`vtkmodules`; help(voxplex.vtkImageToTetMeshFilter) has the arrays, units and errors of each.
+Where Voxplex was built with VTK's Python wrapping, the VTK classes are here, too, for pipelines:
+`vtkImageToTetMeshFilter`, `vtkImageToPentatopeMeshFilter`, `vtkPentatopeMeshTimeSlice`, `vtkSimplexMeshQuality`,
+`vtkSegmentationReader` and `vtkSimplexMeshWriter`. They work together with those of `vtkmodules`;
+help(voxplex.vtkImageToTetMeshFilter) has the arrays, units and errors of each.
 
 `python3 -m voxplex` runs the command line.
 """
 
-from .arrays import labels, pentatopes, point_ids, points, tets, times, triangles
-from .errors import FileError, MeshingCancelled, MeshingError, MeshingWarning
-from .files import HAVE_IO, read_frames, read_segmentation, write
-from .images import array_from_image, image_from_array, images_from_array
+from typing import Any
+
+from .errors import ArgumentError, FileError, MeshingCancelled, MeshingError, MeshingWarning
+from .files import read_segmentation
+from .images import Image
 from .installation import VERSION as __version__
 from .measuring import quality
-from .meshing import MeshingResult, mesh
-from .names import label_names, set_label_names
-from .vtkVoxplex import (
-    vtkImageToPentatopeMeshFilter, vtkImageToSimplexMeshFilter, vtkImageToTetMeshFilter, vtkMeshingStatistics,
-    vtkPentatopeMeshTimeSlice, vtkSimplexMeshQuality)
+from .meshes import Interfaces, Mesh
+from .meshing import mesh
 
-__all__ = [
-    "FileError", "HAVE_IO", "MeshingCancelled", "MeshingError", "MeshingResult", "MeshingWarning", "__version__",
-    "array_from_image", "image_from_array", "images_from_array", "label_names", "labels", "mesh", "pentatopes",
-    "point_ids", "points", "quality", "read_frames", "read_segmentation", "set_label_names", "tets", "times",
-    "triangles", "vtkImageToPentatopeMeshFilter", "vtkImageToSimplexMeshFilter", "vtkImageToTetMeshFilter",
-    "vtkMeshingStatistics", "vtkPentatopeMeshTimeSlice", "vtkSimplexMeshQuality", "write",
-]
+__all__ = ["ArgumentError", "FileError", "Image", "Interfaces", "Mesh", "MeshingCancelled", "MeshingError",
+           "MeshingWarning", "__version__", "mesh", "quality", "read_segmentation"]
 
-if HAVE_IO:
-    from .vtkVoxplexIO import vtkSegmentationReader, vtkSimplexMeshWriter
+_WRAPPED = ("vtkVoxplex", "vtkVoxplexIO")  # modules
 
-    __all__ += ["vtkSegmentationReader", "vtkSimplexMeshWriter"]
+
+def __getattr__(name: str) -> Any:
+    """The VTK classes. VTK is loaded with the first of them, not with the package."""
+    if name.startswith("vtk"):
+        import importlib
+        for module in _WRAPPED:
+            try:
+                found = importlib.import_module("." + module, __name__)
+            except ModuleNotFoundError as missing:
+                if missing.name != f"{__name__}.{module}":
+                    raise
+                continue
+            if hasattr(found, name):
+                return getattr(found, name)
+        raise AttributeError(f"there is no {name} in this package; it has the classes of VTK where it was built with VTK's "
+                             "Python wrapping, which the wheel was not")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

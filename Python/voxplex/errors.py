@@ -4,7 +4,11 @@
 
 
 class MeshingError(RuntimeError):
-    """The image cannot be meshed; the message is the filter's: what is wrong, and what to do."""
+    """The image cannot be meshed; the message is the program's: what is wrong, and what to do."""
+
+
+class ArgumentError(MeshingError, ValueError):
+    """An argument is wrong, or does not go with another one or with the image."""
 
 
 class MeshingCancelled(RuntimeError):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""NumPy arrays as vtkImageData and back, without copying voxels.
+"""Images in memory, and what mesh() takes for one.
 
 Arrays are indexed [k, j, i] with i, the first axis of the image, running fastest in memory: the order
 of SimpleITK's GetArrayFromImage() and of ITK's. An array indexed [i, j, k], as nibabel's, is passed
@@ -10,135 +10,229 @@ GetSpacing(), GetOrigin() and GetDirection().
 
 from __future__ import annotations
 
-from typing import Any, List, Optional, Sequence, Tuple, Union
+import math
+import os
+import re
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDataArray, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes, vtkImageData
+
+from .fields import Fields, names_in, set_names
 
 # NumPy has types for a part of it only.
 _MASKED: Any = numpy.ma
 
+Path = Union[str, "os.PathLike[str]"]
 
-def image_from_array(array: ArrayLike, *, spacing: Sequence[float] = (1.0, 1.0, 1.0),
-                     origin: Sequence[float] = (0.0, 0.0, 0.0), direction: Optional[ArrayLike] = None,
-                     space: Optional[str] = None) -> vtkImageData:
-    """An image with the voxels of an array of three dimensions.
 
-    array: indexed [k, j, i], one label a voxel, 0 is background, or one grey value. Any integer or real
-        type, or bool. Masked voxels (numpy.ma) are background: 0, or NaN in arrays of real numbers, and
-        hidden from VTK (`vtkGhostType`), so that they are outside of isosurfaces, too.
+class Image:
+    """A label image, one of grey values, or a time series of such images, with its place.
+
+    voxels: an array indexed [k, j, i], or [t, k, j, i] of a time series. One label a voxel, 0 is background, or one
+        grey value. Any integer or real type, or bool. Masked voxels (numpy.ma) are background, and outside of
+        isosurfaces. The array is kept, not copied.
     spacing: the distances of voxels along i, j and k.
     origin: where voxel (0, 0, 0) lies.
-    direction: a 3 x 3 matrix (or its 9 numbers, row by row), whose columns are the directions of
-        i, j and k; by default the axes.
+    direction: a 3 x 3 matrix (or its 9 numbers, row by row), whose columns are the directions of i, j and k; by
+        default the axes.
+    times: of the frames, increasing; by default 0, 1, 2 ...
+    names: of labels, by value.
     space: "LPS" or "RAS", the coordinates that these are in, if it is known.
 
-    The image refers to the array's memory, and keeps it alive, if the array is contiguous, in the
-    machine's byte order and without masked voxels; otherwise it has a copy. Raises ValueError for
-    shapes that do not fit.
+    The attributes have the same names. `field_data` has what meshes inherit: the names as arrays, SPACE, and what a
+    VTK image had.
+
+    Raises ValueError for shapes and numbers that do not fit. A uint8 array of four dimensions whose last axis has the
+    length 3 or 4 is taken for a stack of coloured pictures, and refused, unless there are times.
 
     >>> import numpy
-    >>> labels = numpy.zeros((20, 32, 32), dtype=numpy.uint8)
-    >>> image = image_from_array(labels, spacing=(0.5, 0.5, 1.0))
-    >>> image.GetDimensions()
-    (32, 32, 20)
+    >>> Image(numpy.zeros((20, 32, 32), dtype=numpy.uint8), spacing=(0.5, 0.5, 1.0))
+    Image of 32 x 32 x 20 voxels, uint8
     """
-    voxels, mask = _unmasked(array)
-    if voxels.ndim != 3:
-        raise ValueError(f"the array has {voxels.ndim} dimensions, not 3 ([k, j, i])")
-    if voxels.dtype == numpy.bool_:
-        voxels = voxels.view(numpy.uint8)
-    if voxels.dtype.kind not in "iuf":
-        raise ValueError(f"the array has elements of type {voxels.dtype}, which are not numbers")
-    voxels = numpy.ascontiguousarray(voxels, dtype=voxels.dtype.newbyteorder("="))
-    image = vtkImageData()
-    image.SetDimensions(voxels.shape[2], voxels.shape[1], voxels.shape[0])
-    image.SetSpacing(*_numbers(spacing, 3, "spacing"))
-    image.SetOrigin(*_numbers(origin, 3, "origin"))
-    if direction is not None:
-        image.SetDirectionMatrix(*_numbers(direction, 9, "direction"))
-    if voxels.size:
-        scalars = _share(voxels.reshape(-1))
-        scalars.SetName("Labels")
-        image.GetPointData().SetScalars(scalars)
-    if mask is not None:
-        hidden = _share(numpy.where(mask.reshape(-1), numpy.uint8(vtkDataSetAttributes.HIDDENPOINT), numpy.uint8(0)))
-        hidden.SetName(vtkDataSetAttributes.GhostArrayName())
-        image.GetPointData().AddArray(hidden)
-    if space is not None:
-        _set_space(image, space)
+
+    def __init__(self, voxels: ArrayLike, *, spacing: Sequence[float] = (1.0, 1.0, 1.0),
+                 origin: Sequence[float] = (0.0, 0.0, 0.0), direction: Optional[ArrayLike] = None,
+                 times: Optional[Sequence[float]] = None, names: Optional[Mapping[int, str]] = None,
+                 space: Optional[str] = None) -> None:
+        self.voxels, self.mask = _unmasked(voxels)
+        if self.voxels.ndim not in (3, 4):
+            raise ValueError(f"the array has {self.voxels.ndim} dimensions, not 3 ([k, j, i]) or 4 ([t, k, j, i])")
+        if self.voxels.dtype.kind not in "biuf":
+            raise ValueError(f"the array has elements of type {self.voxels.dtype}, which are not numbers")
+        self.spacing = spacing_of(spacing)
+        self.origin = origin_of(origin)
+        self.direction = direction_of(numpy.eye(3) if direction is None else direction)
+        self.times = self._times(times)
+        self.field_data: Fields = {}
+        if names:
+            set_names(self.field_data, names)
+        if space is not None:
+            self.field_data["SPACE"] = [space_of(space)]
+
+    def __repr__(self) -> str:
+        shape = " x ".join(map(str, reversed(self.voxels.shape[-3:])))
+        frames = f"{len(self.voxels)} frames of " if self.is_series else ""
+        return f"Image of {frames}{shape} voxels, {self.voxels.dtype}"
+
+    @property
+    def is_series(self) -> bool:
+        """Whether it has time frames."""
+        return self.voxels.ndim == 4
+
+    @property
+    def names(self) -> Dict[int, str]:
+        """Of labels, by value. Assign to it to change them; colours are dropped then."""
+        return names_in(self.field_data)
+
+    @names.setter
+    def names(self, names: Mapping[int, str]) -> None:
+        set_names(self.field_data, names)
+
+    @property
+    def space(self) -> Optional[str]:
+        """LPS or RAS; None if it is not known."""
+        found = self.field_data.get("SPACE")
+        return str(found[0]) if found is not None and len(found) else None
+
+    def to_vtk(self) -> Any:
+        """A vtkImageData that shares the voxels; of a time series a list of them, each with its time."""
+        from .vtkdata import image_to_vtk
+        return image_to_vtk(self)
+
+    @staticmethod
+    def from_vtk(data: Any, times: Optional[Sequence[float]] = None) -> Image:
+        """Of a vtkImageData, a list of them (a time series), or a VTK algorithm whose first output is the image.
+
+        Several components are frames if there are times for them: they may as well be colours.
+        """
+        from .vtkdata import image_from_vtk
+        return image_from_vtk(data, times)
+
+    def _times(self, times: Optional[Sequence[float]]) -> List[float]:
+        shape = self.voxels.shape
+        if not self.is_series:
+            if times is not None:
+                raise ValueError("times: only for images with time frames")
+            return []
+        if times is None and self.voxels.dtype == numpy.uint8 and shape[3] in (3, 4):
+            raise ValueError(f"the array has the shape {shape}, as pictures with colours have: make labels of them; "
+                             "if it is indexed [t, k, j, i], pass times=")
+        if len(self.voxels) < 2:
+            raise ValueError("a time series needs two frames or more; pass a single image as it is")
+        result = [float(time) for time in (range(len(self.voxels)) if times is None else times)]
+        if len(result) != len(self.voxels):
+            raise ValueError(f"there are {len(self.voxels)} frames, and {len(result)} times")
+        return result
+
+
+def image_of(image: Any, geometry: Mapping[str, Any], times: Optional[Sequence[float]]) -> Union[Image, str]:
+    """What mesh() takes for an image: an Image, or the path of a file."""
+    if isinstance(image, (str, os.PathLike)):
+        return os.fspath(image)
+    if isinstance(image, numpy.ndarray):
+        return Image(image, times=times, **geometry)
+    if geometry:
+        raise ValueError(f"{', '.join(geometry)}: only for arrays and files; the image has its own")
+    if isinstance(image, Image):
+        return image if times is None else _at_times(image, times)
+    if hasattr(image, "GetLargestPossibleRegion") or type(image).__module__.startswith("SimpleITK"):
+        return _from_itk(image, times)
+    frames = image if isinstance(image, Sequence) and not isinstance(image, (bytes, bytearray)) else [image]
+    if frames and all(hasattr(frame, "IsA") for frame in frames):
+        return Image.from_vtk(image, times)
+    raise TypeError("image must be an array, a path, a voxplex.Image, an image of VTK, PyVista, ITK or SimpleITK, or a list "
+                    f"of vtkImageData (not empty), not {type(image).__name__}")
+
+
+def write_nrrd(image: Image, path: str, hidden_is_outside: bool) -> None:
+    """Writes an image as the program reads it; masked voxels become NaN if they are outside of isosurfaces, else 0."""
+    voxels = _stored(image.voxels)
+    if image.mask is not None and hidden_is_outside and voxels.dtype.kind != "f":
+        voxels = voxels.astype(numpy.float32 if voxels.dtype.itemsize < 4 else numpy.float64)
+    outside = numpy.nan if hidden_is_outside else 0
+    columns = [f"({','.join(repr(float(x)) for x in column)})"
+               for column in (image.direction * image.spacing).T]
+    kinds = ["domain"] * 3 + ["list"] * image.is_series
+    header = ["NRRD0004", f"type: {voxels.dtype.name.replace('float32', 'float').replace('float64', 'double')}",
+              f"dimension: {voxels.ndim}", "space: left-posterior-superior",
+              f"sizes: {' '.join(map(str, reversed(voxels.shape)))}",
+              f"space directions: {' '.join(columns + ['none'] * image.is_series)}", f"kinds: {' '.join(kinds)}",
+              f"space origin: ({','.join(map(repr, image.origin))})", "endian: little", "encoding: raw"]
+    with open(path, "wb") as file:
+        file.write(("\n".join(header) + "\n\n").encode())
+        masks = image.mask if image.is_series else None if image.mask is None else image.mask[numpy.newaxis]
+        for number, frame in enumerate(voxels if image.is_series else voxels[numpy.newaxis]):
+            if masks is not None:
+                frame = numpy.where(masks[number], voxels.dtype.type(outside), frame)
+            file.write(numpy.ascontiguousarray(frame).data)
+
+
+def read_nrrd(path: str) -> Image:
+    """Reads what the program writes with --save-image."""
+    with open(path, "rb") as file:
+        lines = iter(lambda: file.readline().decode(errors="replace").rstrip("\n"), "")
+        pairs = dict(re.split(":=|: ", line, maxsplit=1) for line in lines if not line.startswith("NRRD"))
+        shape = [int(size) for size in reversed(pairs["sizes"].split())]
+        dtype = {"float": "float32", "double": "float64"}.get(pairs["type"], pairs["type"])
+        voxels = numpy.fromfile(file, dtype=dtype).reshape(shape)
+    columns = [_point(text) for text in pairs["space directions"].split()[:3]]
+    spacing = [math.sqrt(sum(x * x for x in column)) for column in columns]
+    times = pairs.get("axis 3 index values")
+    image = Image(voxels, spacing=spacing, origin=_point(pairs["space origin"]),
+                  direction=numpy.array(columns).T / spacing, times=None if times is None else [float(t) for t in times.split()],
+                  space="LPS" if pairs["space"] == "left-posterior-superior" else "RAS")
+    segments = [key[:-len("ID")] for key in pairs if re.fullmatch(r"Segment\d+_ID", key)]
+    image.names = {int(pairs[segment + "LabelValue"]): pairs[segment + "Name"] for segment in segments}
+    if segments:
+        colors = [pairs.get(segment + "Color", "nan nan nan").split() for segment in segments]
+        image.field_data["LabelColors"] = numpy.array(colors, dtype=float)
     return image
 
 
-def images_from_array(array: ArrayLike, *, times: Optional[Sequence[float]] = None,
-                      **geometry: Any) -> List[vtkImageData]:
-    """The frames of an array of four dimensions, indexed [t, k, j, i], as images.
-
-    times: the time of each frame, by default 0, 1, 2 ... Further arguments are those of
-    :func:`image_from_array`, for every frame. The result is what :func:`mesh` makes pentatopes from.
-
-    Raises ValueError for shapes that do not fit. A uint8 array whose last axis has the length 3 or 4 is taken for a
-    stack of coloured pictures, and refused, unless there are times.
-    """
-    voxels = _MASKED.asanyarray(array)  # of a list of masked arrays, too
-    if voxels.ndim != 4:
-        raise ValueError(f"the array has {voxels.ndim} dimensions, not 4 ([t, k, j, i])")
-    if times is None and voxels.dtype == numpy.uint8 and voxels.shape[3] in (3, 4):
-        raise ValueError(f"the array has the shape {voxels.shape}, as pictures with colours have: make labels of them; "
-                         "if it is indexed [t, k, j, i], pass times=")
-    frames = [image_from_array(frame, **geometry) for frame in voxels]
-    if times is not None:
-        set_times(frames, times)
-    return frames
+def _point(text: str) -> List[float]:
+    return [float(number) for number in text.strip("()").split(",")]
 
 
-def array_from_image(image: vtkImageData) -> NDArray[Any]:
-    """The labels of an image as an array indexed [k, j, i], which shares the image's memory.
-
-    An image with several components (time frames) gives [k, j, i, component]. Raises ValueError if the
-    image has no active point scalars.
-    """
-    scalars = image.GetPointData().GetScalars()
-    if scalars is None:
-        raise ValueError("the image has no active point scalars")
-    shape = tuple(reversed(image.GetDimensions()))
-    components = scalars.GetNumberOfComponents()
-    return vtk_to_numpy(scalars).reshape(shape if components == 1 else shape + (components,))
-
-
-def set_times(frames: Sequence[vtkImageData], times: Sequence[float]) -> None:
-    """Notes the time of each frame in its information (DATA_TIME_STEP), where VTK's readers note it."""
-    if len(times) != len(frames):
-        raise ValueError(f"there are {len(frames)} frames, and {len(times)} times")
-    for frame, time in zip(frames, times):
-        frame.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), float(time))
+def place_of(spacing: Optional[Sequence[float]], origin: Optional[Sequence[float]],
+             direction: Optional[ArrayLike]) -> Dict[str, Any]:
+    """What is given of the place of an image."""
+    values: Dict[str, Any] = {}
+    if spacing is not None:
+        values["spacing"] = spacing_of(spacing)
+    if origin is not None:
+        values["origin"] = origin_of(origin)
+    if direction is not None:
+        values["direction"] = direction_of(direction)
+    return values
 
 
-def _unmasked(array: ArrayLike) -> Tuple[NDArray[Any], Optional[NDArray[numpy.bool_]]]:
-    """The array with masked voxels set to background, and its mask; without masked voxels the array itself and None."""
-    voxels = _MASKED.asanyarray(array)
-    if not _MASKED.is_masked(voxels):
-        return voxels.data, None
-    return voxels.filled(numpy.nan if voxels.dtype.kind == "f" else 0), _MASKED.getmaskarray(voxels)
+def spacing_of(values: ArrayLike) -> List[float]:
+    lengths = _numbers(values, 3, "spacing")
+    if not all(0 < length < math.inf for length in lengths):
+        raise ValueError(f"spacing is {lengths}; lengths must be positive and finite")
+    return lengths
 
 
-def _share(values: NDArray[Any]) -> vtkDataArray:
-    """A VTK array over the memory of a NumPy array, which it keeps alive for as long as it lives itself.
+def origin_of(values: ArrayLike) -> List[float]:
+    coordinates = _numbers(values, 3, "origin")
+    if not all(map(math.isfinite, coordinates)):
+        raise ValueError(f"origin is {coordinates}; coordinates must be finite")
+    return coordinates
 
-    numpy_to_vtk() leaves that to an attribute of the Python object, which VTK keeps longer than the
-    array. An observer dies with the array.
-    """
-    result = numpy_to_vtk(values)
-    del result._numpy_reference
 
-    def owner(_caller: Any, _event: str, memory: NDArray[Any] = values) -> NDArray[Any]:
-        return memory
-
-    result.AddObserver("UserEvent", owner)
+def direction_of(values: ArrayLike) -> NDArray[numpy.float64]:
+    matrix = _numbers(values, 9, "direction")
+    result = numpy.array(matrix).reshape(3, 3)
+    if not numpy.isfinite(result).all() or numpy.linalg.matrix_rank(result) < 3:
+        raise ValueError(f"direction is {matrix}; its columns must be independent")
     return result
+
+
+def space_of(space: str) -> str:
+    if space not in ("LPS", "RAS"):
+        raise ValueError(f"space is {space!r}, not 'LPS' or 'RAS'")
+    return space
 
 
 def _numbers(values: ArrayLike, count: int, what: str) -> List[float]:
@@ -148,10 +242,40 @@ def _numbers(values: ArrayLike, count: int, what: str) -> List[float]:
     return [float(value) for value in result]
 
 
-def _set_space(data: Union[vtkImageData, vtkDataObject], space: str) -> None:
-    if space not in ("LPS", "RAS"):
-        raise ValueError(f"space is {space!r}, not 'LPS' or 'RAS'")
-    array = vtkStringArray()
-    array.SetName("SPACE")
-    array.InsertNextValue(space)
-    data.GetFieldData().AddArray(array)
+def _unmasked(array: ArrayLike) -> Tuple[NDArray[Any], Optional[NDArray[numpy.bool_]]]:
+    """The values of an array, and its mask; None without masked voxels."""
+    voxels = _MASKED.asanyarray(array)
+    return voxels.data, _MASKED.getmaskarray(voxels) if _MASKED.is_masked(voxels) else None
+
+
+def _stored(voxels: NDArray[Any]) -> NDArray[Any]:
+    """In a type that NRRD has."""
+    kind, size = voxels.dtype.kind, voxels.dtype.itemsize
+    if kind == "b":
+        return voxels.view(numpy.uint8)
+    if kind == "f" and size not in (4, 8):
+        return voxels.astype(numpy.float32 if size < 4 else numpy.float64)
+    return voxels.astype(voxels.dtype.newbyteorder("<"), copy=False)
+
+
+def _at_times(image: Image, times: Sequence[float]) -> Image:
+    result = Image(image.voxels, spacing=image.spacing, origin=image.origin, direction=image.direction, times=times)
+    result.mask, result.field_data = image.mask, image.field_data
+    return result
+
+
+def _from_itk(image: Any, times: Optional[Sequence[float]]) -> Image:
+    """Of ITK or SimpleITK. The fourth axis of an image of four dimensions is time."""
+    dimension = image.GetDimension() if hasattr(image, "GetDimension") else image.GetImageDimension()
+    if type(image).__module__.startswith("SimpleITK"):
+        import SimpleITK
+        voxels = SimpleITK.GetArrayViewFromImage(image)
+        direction = numpy.reshape(image.GetDirection(), (dimension, dimension))
+    else:
+        import itk
+        voxels = itk.array_view_from_image(image)
+        direction = itk.array_from_matrix(image.GetDirection())
+    spacing, origin = list(image.GetSpacing()), list(image.GetOrigin())
+    if dimension == 4 and times is None:
+        times = [origin[3] + frame * spacing[3] for frame in range(voxels.shape[0])]
+    return Image(voxels, spacing=spacing[:3], origin=origin[:3], direction=direction[:3, :3], times=times, space="LPS")

@@ -4,24 +4,23 @@
 
 from __future__ import annotations
 
-import errno
 import json
 import os
+import tempfile
 from typing import Any, Dict, Iterable, Optional, Sequence, Union
 
 from numpy.typing import ArrayLike
-from vtkmodules.vtkCommonDataModel import VTK_POLY_VERTEX, vtkUnstructuredGrid
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-from .errors import FileError
-from .execution import Execution, Progress
-from .files import Path
-from .names import Label, label_value
-from .sources import Image, Source
-from .vtkVoxplex import vtkSimplexMeshQuality
+from . import program
+from .fields import Label
+from .files import mesh_file, number_list
+from .images import Image, Path, image_of, place_of
+from .meshes import Mesh
+from .meshing import in_words, input_of, labels_of
+from .program import Progress
 
 
-def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = None, *,
+def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
             labels: Optional[Iterable[Label]] = None,
             hausdorff: bool = True, smoothing: Optional[float] = None, radius_edge: Optional[float] = None,
             facet_angle: Optional[float] = None, smallest_component: Optional[int] = None,
@@ -36,8 +35,8 @@ def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = Non
     Parameters
     ----------
     mesh
-        A vtkUnstructuredGrid of tetrahedra or pentatopes with a cell array `Label` (and for pentatopes the point
-        array `Time`), or the path of a .vtu file.
+        A :class:`Mesh`; a vtkUnstructuredGrid of tetrahedra or pentatopes with a cell array `Label` (and for pentatopes
+        the point array `Time`); or the path of a .vtu file.
     image
         The label image or series that it was made from, as :func:`mesh` takes it; without one, nothing that needs
         an image is measured. It must lie where the mesh lies.
@@ -83,69 +82,31 @@ def quality(mesh: Union[vtkUnstructuredGrid, Path], image: Optional[Image] = Non
     >>> labels = numpy.zeros((16, 24, 24), dtype=numpy.uint8)
     >>> labels[4:12, 6:18, 6:12] = 1
     >>> labels[4:12, 6:18, 12:18] = 2
-    >>> grid = voxplex.mesh(labels, delta=1.5)
-    >>> figures = voxplex.quality(grid, labels)
+    >>> figures = voxplex.quality(voxplex.mesh(labels, delta=1.5), labels)
     >>> figures["image"]["lost_labels"]
     []
     >>> figures["hausdorff"]["voxels"]["distance"] < 1.5 * 1.5
     True
     """
-    measurer = vtkSimplexMeshQuality()
-    grid = _mesh(mesh)
-    is_series = grid.GetNumberOfCells() > 0 and grid.GetCellType(0) == VTK_POLY_VERTEX
-    measurer.SetInputData(grid)
-    geometry = {name: value for name, value in
-                (("spacing", spacing), ("origin", origin), ("direction", direction)) if value is not None}
-    if image is not None:
-        _connect(measurer, Source(image, geometry, times), labels, is_series)
-    elif geometry or labels is not None:
+    source = None if image is None else image_of(image, place_of(spacing, origin, direction), times)
+    geometry = place_of(spacing, origin, direction)
+    if source is None and (labels is not None or geometry):
         raise ValueError(f"{', '.join(geometry) or 'labels'}: only with an image")
-    elif is_series:
-        for time in () if times is None else times:
-            measurer.AddFrameTime(float(time))
-    if not is_series and (times is not None or time_scale is not None):
-        raise ValueError("times, time_scale: only for meshes of pentatopes")
-    measurer.SetDistances(hausdorff)
-    measurer.SetNumberOfThreads(threads)
-    for name, value in (("TimeScale", time_scale), ("SmoothingSigma", smoothing), ("RadiusEdgeRatio", radius_edge), ("FacetAngle", facet_angle),
-                        ("SmallestComponent", smallest_component)):
-        if value is not None:
-            getattr(measurer, "Set" + name)(value)
-    execution = Execution(measurer, progress)
-    execution.run(measurer.Update)
-    execution.check("measuring")
-    figures: Dict[str, Any] = json.loads(measurer.ToJSON())
+    with tempfile.TemporaryDirectory(prefix="voxplex-") as folder:
+        report = os.path.join(folder, "quality.json")
+        arguments = ["--mesh=" + mesh_file(mesh, folder), "--stats=" + report,
+                     "--hausdorff" if hausdorff and source is not None else "--quality", f"--threads={int(threads)}"]
+        for option, value in (("smoothing", smoothing), ("radius-edge", radius_edge), ("facet-angle", facet_angle),
+                              ("smallest-component", smallest_component), ("time-scale", time_scale)):
+            if value is not None:
+                arguments.append(f"--{option}={value}")
+        if labels is not None:
+            arguments += labels_of(labels, source.names if isinstance(source, Image) else None)
+        if source is not None:
+            arguments += input_of(source, folder, False, geometry, times)
+        elif times is not None:
+            arguments += number_list("frame-times", times)
+        program.run(arguments, progress, in_words(folder))
+        with open(report, encoding="utf-8") as file:
+            figures: Dict[str, Any] = json.load(file)
     return figures
-
-
-def _connect(measurer: Any, source: Source, labels: Optional[Iterable[Label]], is_series: bool) -> None:
-    if source.is_series != is_series:
-        raise ValueError("the image has time frames, but the mesh has no pentatopes" if source.is_series else
-                         "the mesh has pentatopes, but the image has no time frames")
-    source.connect(measurer, 1)
-    if labels is not None:
-        for label in labels:
-            measurer.AddLabel(label_value(label, source.names()))
-
-
-def _mesh(mesh: Union[vtkUnstructuredGrid, Path]) -> vtkUnstructuredGrid:
-    if isinstance(mesh, (str, os.PathLike)):
-        return _read(mesh)
-    if not isinstance(mesh, vtkUnstructuredGrid):
-        raise TypeError(f"mesh must be a vtkUnstructuredGrid or a path, not {type(mesh).__name__}")
-    return mesh
-
-
-def _read(path: Path) -> vtkUnstructuredGrid:
-    name = os.fspath(path)
-    if not os.path.exists(name):
-        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), name)
-    reader = vtkXMLUnstructuredGridReader()
-    if not name.endswith(".vtu") or not reader.CanReadFile(name):
-        raise FileError(f"{name} is not a .vtu file, the one format that quality() reads; pass the mesh itself")
-    reader.SetFileName(name)
-    execution = Execution(reader)
-    execution.run(reader.Update)
-    if execution.errors:
-        raise FileError("\n".join(execution.errors))
-    return reader.GetOutput()

@@ -404,7 +404,7 @@ class Talk(ProgramTestCase):
                      "--facet-angle", "--sliver-angle", "--no-optimise", "--optimise-seconds", "--no-junctions", "--interface-rounds", "--no-manifold", "--grading", "--feature-ratio", "--largest-feature",
                       "--smallest-component", "--exact-components", "--min-component-volume", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--quality", "--hausdorff", "--version", "--help",
                      "--time-scale", "--time-planes", "--slabs", "--periodic", "--slices", "--slice-count", "--rule-order", "--no-picking", "--picks",
-                     "--sliver-bound", "--seed", "--no-fine-grained"):
+                     "--sliver-bound", "--seed", "--no-fine-grained", "--mesh", "--interfaces", "--uncompressed", "--messages"):
             self.assertIn(flag, done.stdout)
         self.assertIn("\nSpace-time images", done.stdout)
         self.assertIn("Examples:", done.stdout)
@@ -424,9 +424,23 @@ class Talk(ProgramTestCase):
         report = json.loads((self.folder / "s.json").read_text())
         self.assertIn("{:,} tetrahedra in 1 label,".format(report["elements"]), done.stdout)
 
-    def test_progress_is_silent_in_a_pipe(self):
-        path = images.write_nrrd(self.folder / "ball.nrrd", images.ball())
-        self.mesh("--input", path, "--delta", 3, "--progress")
+    def test_progress_in_a_pipe(self):
+        """A line for each percent that is new."""
+        path = images.write_nrrd(self.folder / "ball.nrrd", images.ball(60, 26.0))
+        arguments = ("--input", path, "--delta", 0.5, "--threads", 1)
+        self.assertEqual(self.call(*arguments, "--hausdorff").stderr, "")
+        done = self.call(*arguments, "--hausdorff", "--progress")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, r"^(\d{1,3} % [A-Z][^\n]*\n)+$")
+        lines = [line.split(" % ") for line in done.stderr.splitlines()]
+        steps = [step for _, step in lines]
+        self.assertIn("Meshing", steps)
+        self.assertIn("Measuring", steps)
+        for is_measured in (False, True):
+            percents = [int(percent) for percent, step in lines if (step == "Measuring") == is_measured]
+            self.assertEqual(percents, sorted(set(percents)))
+            self.assertLessEqual(percents[-1], 100)
+        self.assertGreater(len(lines), 3)
 
     def test_progress_on_a_terminal(self):
         path = images.write_nrrd(self.folder / "ball.nrrd", images.ball(40, 16.0))
@@ -454,6 +468,49 @@ class Talk(ProgramTestCase):
         percents = [int(part.split("]")[1].split("%")[0]) for part in text.split("\r")[1:] if "%" in part]
         self.assertEqual(percents, sorted(percents))
         self.assertTrue(text.endswith("\r\033[K"), "the bar is wiped at the end")
+
+
+class Messages(ProgramTestCase):
+    """--messages python: errors and warnings name what Python has."""
+
+    def setUp(self):
+        super().setUp()
+        self.input = images.write_nrrd(self.folder / "two.nrrd", images.two_labels())
+
+    def say(self, status, *arguments):
+        done = self.call("--messages", "python", *arguments)
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertNotIn("--", done.stderr)
+        self.assertNotIn("see voxplex", done.stderr)
+        self.assertEqual(self.call(*arguments, "--messages=python").stderr, done.stderr)
+        return done.stderr
+
+    def test_options(self):
+        for arguments, words in (
+                (("--facet-angle", 31), "^voxplex: facet_angle: must lie between 0 and 30, not 31\n$"),
+                (("--radius-edge", 1.5), "radius_edge: below 1.93 .*; give force=True to try"),
+                (("--no-optimise", "--optimise-seconds", 3), "optimise_seconds limits what optimise=False switches off"),
+                (("--label-size", "Tibia=2"), "label_sizes: 'Tibia' is not a number, .* with label_table"),
+                (("--feature-ratio", 2), "feature_ratio: .*give grading lfs as well"),
+                (("--frame-times", 1), "times: give the time of each frame"),
+                (("--output", "x--delta.foo"), "output: the format '.foo' is not known")):
+            with self.subTest(arguments):
+                self.assertRegex(self.say(2, "--input", self.input, *arguments), words)
+
+    def test_filters_and_readers(self):
+        self.assertRegex(self.say(1, "--input", self.input, "--delta", 1e-5), "a larger delta or .* or go on with force=True")
+        self.assertRegex(self.say(0, "--input", self.input, "--delta", 8, "--size", 0.01),
+                         "^voxplex: warning: .* raised to 0.8; use a smaller delta for")
+        (self.folder / "folder").mkdir()
+        ball = images.ball(6, 2.0)
+        for number in (1, 2):
+            images.write_dicom_series(self.folder / "folder", ball, series="1.2.%d" % number, number=number)
+        self.assertRegex(self.say(1, "--input", "folder"), 'series_uid="1.2.1"')
+        self.assertRegex(self.call("--input", "folder").stderr, "--series 1.2.1")
+
+    def test_shell(self):
+        self.assert_refused(2, "--delta: must be", "--input", self.input, "--delta", -1, "--messages", "shell")
+        self.assert_refused(2, "--messages: must be shell or python, not 'ruby'", "--input", self.input, "--messages", "ruby")
 
 
 if __name__ == "__main__":

@@ -420,11 +420,6 @@ class Flags(SpaceTimeTestCase):
             self.refuse(2, "--plc: '.%s' does not hold the tetrahedra between labels of a space-time.*use .vtu"
                         % name[2:], "--plc", name)
 
-    def test_formats_of_space_time_on_a_3d_image(self):
-        path = images.write_nrrd(self.folder / "ball.nrrd", images.ball(12, 4.0))
-        self.assert_refused(2, "--plc: '.vtu' does not hold the triangles between labels of a 3D image.*use .vtp",
-                            "--input", path, "--plc", "m.vtu")
-
     def test_values(self):
         for arguments, pattern in (
             (("--time-scale", 0), "--time-scale: must be greater than 0"),

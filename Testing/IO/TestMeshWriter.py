@@ -86,6 +86,7 @@ class Names(WriterTestCase):
         for name, content, reader in (("m.vtu", MESH, vtkXMLUnstructuredGridReader()),
                                       ("m.vtk", MESH, vtkUnstructuredGridReader()),
                                       ("i.vtp", INTERFACES, vtkXMLPolyDataReader()),
+                                      ("i.vtu", INTERFACES, vtkXMLUnstructuredGridReader()),
                                       ("i.vtk", INTERFACES, vtkPolyDataReader())):
             with self.subTest(name):
                 self.write(mesher, name, content)
@@ -110,6 +111,7 @@ class Names(WriterTestCase):
                     ("m.vtu", MESH, vtkXMLUnstructuredGridReader(), [octets, in_vtu]),
                     ("m.vtk", MESH, vtkUnstructuredGridReader(), [octets, octets]),
                     ("i.vtp", INTERFACES, vtkXMLPolyDataReader(), [strings, strings]),
+                    ("i.vtu", INTERFACES, vtkXMLUnstructuredGridReader(), [octets, in_vtu]),
                     ("i.vtk", INTERFACES, vtkPolyDataReader(), [strings, strings])):
                 with self.subTest(name=name, space=space):
                     self.write(mesher, name, content)
@@ -213,6 +215,20 @@ class Formats(WriterTestCase):
         self.assertFalse(writer.HasFormat("vtu", MESH, 0))
         self.assertFalse(writer.HasFormat("a.feb", MESH, 4))
 
+    def test_interfaces_as_a_grid(self):
+        """.vtu has what .vtp has."""
+        mesher = self.mesher()
+        for name in ("i.vtp", "i.vtu"):
+            self.write(mesher, name, INTERFACES)
+        surface = self.load(vtkXMLPolyDataReader(), "i.vtp")
+        grid = self.load(vtkXMLUnstructuredGridReader(), "i.vtu")
+        self.assertEqual({grid.GetCellType(cell) for cell in range(grid.GetNumberOfCells())}, {5})
+        for first, second in ((surface.GetPoints().GetData(), grid.GetPoints().GetData()),
+                              (surface.GetPolys().GetConnectivityArray(), grid.GetCells().GetConnectivityArray()),
+                              (surface.GetPointData().GetArray("PointIds"), grid.GetPointData().GetArray("PointIds")),
+                              (surface.GetCellData().GetArray("Labels"), grid.GetCellData().GetArray("Labels"))):
+            self.assertEqual(memoryview(first).tobytes(), memoryview(second).tobytes())
+
     def test_without_interfaces(self):
         """Formats that hold both have no facets then; those of interfaces do without a mesh."""
         mesher = self.mesher()
@@ -247,6 +263,26 @@ class Formats(WriterTestCase):
         self.assertEqual(writer.Write(), 1)
         self.assertEqual(list(self.files()), ["part"])
         self.assertTrue(self.files()["part"].startswith(b"# vtk"))
+
+
+class Compression(WriterTestCase):
+    def test_off(self):
+        """Arrays as they are in memory, each behind the number of its bytes."""
+        mesher = self.mesher()
+        for name, content in (("m.vtu", MESH), ("i.vtp", INTERFACES)):
+            writer = self.writer(mesher, name, content)
+            self.assertTrue(writer.GetCompress())
+            writer.CompressOff()
+            self.assertEqual(writer.Write(), 1)
+            data = self.files()[name]
+            self.assertIn(b'header_type="UInt64">', data[:200])
+            self.assertIn(b'<AppendedData encoding="raw">', data)
+            points = vtk_to_numpy(writer.GetInputDataObject(content, 0).GetPoints().GetData()).tobytes()
+            self.assertIn(len(points).to_bytes(8, "little") + points, data)
+            writer.CompressOn()
+            self.assertEqual(writer.Write(), 1)
+            self.assertIn(b'compressor="vtkZLibDataCompressor"', self.files()[name][:200])
+            self.assertLess(len(self.files()[name]), len(data))
 
 
 class TwoFiles(WriterTestCase):

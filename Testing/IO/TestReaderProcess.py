@@ -109,7 +109,8 @@ class ReadingProcess(FolderTestCase):
         code = ("import locale, resource, voxplex; locale.setlocale(locale.LC_ALL, 'de_DE.UTF-8')\n"
                 "assert locale.localeconv()['decimal_point'] == ','\n"
                 "if %r: resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 30, 1 << 30))  # no process\n"
-                "image = voxplex.read_segmentation(%r); print(image.GetSpacing(), image.GetOrigin())\n")
+                "reader = voxplex.vtkSegmentationReader(); reader.SetFileName(%r); reader.Update()\n"
+                "print(reader.GetOutput().GetSpacing(), reader.GetOutput().GetOrigin())\n")
         text = images.write_nrrd(self.folder / "text.nrrd", ARRAY.astype(np.float32) + 0.5, GEOMETRY,
                                  header_lines={"encoding": "ascii", "type": "float"})
         data = Path(text).read_bytes().split(b"\n\n")[0]
@@ -118,7 +119,7 @@ class ReadingProcess(FolderTestCase):
         for path in (self.path, text, meta, images.write_nifti(self.folder / "i.nii", ARRAY, GEOMETRY)):
             for here in (False, True):
                 with self.subTest(path=path, here=here):
-                    done = self.python(code % (here, path), env={**os.environ, "LOCPATH": str(self.folder)})
+                    done = self.python(code % (here, str(path)), env={**os.environ, "LOCPATH": str(self.folder)})
                     self.assertEqual(done.stderr, "")
                     self.assertEqual(done.stdout, "%r %r\n" % (GEOMETRY.spacing, GEOMETRY.origin))
 

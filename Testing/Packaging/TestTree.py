@@ -104,8 +104,9 @@ class Use(unittest.TestCase):
                   "labels = numpy.zeros((9, 9, 9), dtype=numpy.uint8); labels[2:7, 2:7, 2:7] = 1\n"
                   "print(voxplex.__file__)\n"
                   "print(voxplex.__version__)\n"
+                  "voxplex.vtkImageToTetMeshFilter()\n"
                   "print(sorted(set(re.findall('/.*libvtkVoxplex.*', open('/proc/self/maps').read()))))\n"
-                  "print(voxplex.mesh(labels, 2.0).GetNumberOfCells())\n")
+                  "print(len(voxplex.mesh(labels, 2.0).cells))\n")
         done = run(sys.executable, "-c", script, PYTHONPATH=str(PYTHON))
         self.assertEqual(done.returncode, 0, done.stderr)
         file, version, libraries, cells = done.stdout.splitlines()

@@ -86,6 +86,15 @@ def for_python(name, value):
     return {key: value} if key else None
 
 
+def mesh_of(mesh):
+    """Of a filter or of mesh()."""
+    return mesh if isinstance(mesh, voxplex.Mesh) else voxplex.Mesh.from_vtk(mesh)
+
+
+def cells_of(mesh):
+    return mesh_of(mesh).cells
+
+
 class Arrival(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -98,7 +107,7 @@ class Arrival(unittest.TestCase):
 
     def filter_of(self, array, dimension, properties):
         mesher = make_filter({"dimension": dimension})
-        image = voxplex.image_from_array(array if dimension == 3 else array[0])
+        image = voxplex.Image(array if dimension == 3 else array[0]).to_vtk()
         if dimension == 4:  # the components are frames
             image.GetPointData().SetScalars(numpy_to_vtk(array.reshape(len(array), -1).T.copy(), deep=True))
         mesher.SetInputData(image)
@@ -137,14 +146,14 @@ class Arrival(unittest.TestCase):
         array = images.two_labels()
         array[2, 2, 2] = 3  # a speck, far from everything else
         array[12, 12, 12] = 9  # one voxel beside an interface
-        self.check(array, 3, TETRAHEDRA, voxplex.tets, meshfiles.read_tetrahedra)
+        self.check(array, 3, TETRAHEDRA, cells_of, meshfiles.read_tetrahedra)
 
     def test_isosurfaces(self):
         distance = numpy.linalg.norm(numpy.mgrid[:20, :20, :20] - 9.5, axis=0)
         array = (8 - distance + numpy.random.RandomState(1).uniform(-0.5, 0.5, distance.shape)).astype(numpy.float32)
 
         def numbers(mesh):
-            return numpy.column_stack((voxplex.tets(mesh), voxplex.labels(mesh)))
+            return numpy.column_stack((mesh_of(mesh).cells, mesh_of(mesh).labels))
 
         def read(path):
             mesh = meshfiles.read_tetrahedra(path)
@@ -154,12 +163,12 @@ class Arrival(unittest.TestCase):
 
     def test_noise(self):
         array = numpy.random.RandomState(1).randint(0, 3, (24, 24, 24)).astype(numpy.uint8)
-        self.check(array, 3, NOISE, voxplex.tets, meshfiles.read_tetrahedra)
+        self.check(array, 3, NOISE, cells_of, meshfiles.read_tetrahedra)
 
     def test_pentatopes(self):
         array = images.moving_balls(size=12, radius=3.0)
         array[-1] = array[0]
-        self.check(array, 4, PENTATOPES, voxplex.pentatopes, meshfiles.read_pentatopes)
+        self.check(array, 4, PENTATOPES, cells_of, meshfiles.read_pentatopes)
 
     def test_all_are_there(self):
         given = {name for row in TETRAHEDRA + ISOSURFACES + NOISE + PENTATOPES for name in row}

@@ -25,7 +25,7 @@ def message_about(parameter, value, force):
     labels = numpy.zeros((8, 8, 8), dtype=numpy.uint8)
     labels[2:6, 2:6, 2:6] = 1
     mesher = make_filter(parameter)
-    image = voxplex.image_from_array(labels)
+    image = voxplex.Image(labels).to_vtk()
     if parameter["dimension"] == 4:  # the components are frames
         image.GetPointData().SetScalars(numpy_to_vtk(numpy.repeat(labels.reshape(-1, 1), 2, axis=1), deep=True))
     mesher.SetInputData(image)

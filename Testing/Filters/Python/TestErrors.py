@@ -22,11 +22,11 @@ NAN, INFINITY = math.nan, math.inf
 
 
 def ball(radius=6.0):
-    return voxplex.image_from_array((RADII < radius).astype(float))
+    return voxplex.Image((RADII < radius).astype(float)).to_vtk()
 
 
 def two_labels():
-    return voxplex.image_from_array(numpy.where(RADII < 6, numpy.where(I < 12, 1, 2), 0).astype(numpy.uint8))
+    return voxplex.Image(numpy.where(RADII < 6, numpy.where(I < 12, 1, 2), 0).astype(numpy.uint8)).to_vtk()
 
 
 def choose(mesher, name):
@@ -73,7 +73,7 @@ class Images(FilterTestCase):
         self.expect_error(mesher, ("SetInputArrayToProcess",))
 
     def test_grey_values(self):
-        image = voxplex.image_from_array((numpy.arange(N ** 3) % 5000).astype(float).reshape(N, N, N))
+        image = voxplex.Image((numpy.arange(N ** 3) % 5000).astype(float).reshape(N, N, N)).to_vtk()
         self.expect_image_error(("grey-value", "labels"), image)
         mesher = tets(image)  # and only the chosen label counts
         mesher.AddLabel(4000)
@@ -83,7 +83,7 @@ class Images(FilterTestCase):
 
     def test_extents(self):
         for shape in ((1, N, N), (1, 1, 1)):
-            self.expect_image_error(("1 voxel",), voxplex.image_from_array(numpy.ones(shape, numpy.uint8)))
+            self.expect_image_error(("1 voxel",), voxplex.Image(numpy.ones(shape, numpy.uint8)).to_vtk())
 
     def test_geometry(self):
         for bad in (0.0, -1.0, NAN, INFINITY):
@@ -161,7 +161,7 @@ class Parameters(FilterTestCase):
         self.expect_error(mesher, ("memory",), mesher.ForceOn)
 
     def test_size_image(self):
-        mesher, sizes = tets(ball()), voxplex.image_from_array(numpy.full((N, N, N), 2.0), spacing=(1, 1, 1))
+        mesher, sizes = tets(ball()), voxplex.Image(numpy.full((N, N, N), 2.0), spacing=(1, 1, 1)).to_vtk()
         sizes.SetSpacing(1, 1, 0)
         mesher.SetElementSizeData(sizes)
         self.expect_error(mesher, ("image of element sizes", "spacing"), lambda: sizes.SetSpacing(1, 1, 1))
@@ -173,7 +173,7 @@ class Parameters(FilterTestCase):
         self.expect_error(mesher, ("image of element sizes",), lambda: mesher.SetElementSizeData(None))
 
     def test_isosurfaces(self):
-        image = voxplex.image_from_array((9 - RADII).astype(numpy.float32))
+        image = voxplex.Image((9 - RADII).astype(numpy.float32)).to_vtk()
         mesher = tets(image)
         self.assertEqual(mesher.GetInputMode(), mesher.INPUT_LABELS)
         # Labels are asked for by default, and the message shows the way.
@@ -188,7 +188,7 @@ class Parameters(FilterTestCase):
         self.expect_error(mesher, ("ExcludeLabel()",), mesher.RemoveAllExcludedLabels)
         mesher.SetLabelSize(1, 2.0)
         self.expect_error(mesher, ("label 1", "labels are 3"), mesher.ClearLabelSizes)
-        mesher.SetInputData(voxplex.image_from_array(numpy.full((N, N, N), NAN, numpy.float32)))
+        mesher.SetInputData(voxplex.Image(numpy.full((N, N, N), NAN, numpy.float32)).to_vtk())
         self.expect_error(mesher, ("NaN",), lambda: mesher.SetInputData(image))
 
 
@@ -204,7 +204,7 @@ class SpaceTime(FilterTestCase):
         mesher.Update()
         self.assertEqual(mesher.GetErrorMessage() or "", "")
         self.assertGreater(mesher.GetOutput().GetNumberOfCells(), 100)
-        return voxplex.pentatopes(mesher.GetOutput())
+        return voxplex.Mesh.from_vtk(mesher.GetOutput()).cells
 
     def test_times(self):
         for times, words in (
@@ -226,7 +226,7 @@ class SpaceTime(FilterTestCase):
 
     def test_frames(self):
         def make_larger(image):
-            image.DeepCopy(voxplex.image_from_array(numpy.ones((12, 13, 12), numpy.uint8)))
+            image.DeepCopy(voxplex.Image(numpy.ones((12, 13, 12), numpy.uint8)).to_vtk())
 
         def set_components(image):
             image.GetPointData().SetScalars(add_array(image.GetPointData(), "Other", numpy.ones((1728, 2))))
@@ -344,7 +344,7 @@ class SpaceTime(FilterTestCase):
             source.frames = other.frames
             source.Modified()
             numpy.testing.assert_array_equal(self.cells(mesher), self.cells(pentatopes(other)))
-            numpy.testing.assert_array_equal(voxplex.points(mesher.GetOutput()).shape[0],
+            numpy.testing.assert_array_equal(voxplex.Mesh.from_vtk(mesher.GetOutput()).points.shape[0],
                                              vtk_to_numpy(mesher.GetOutput().GetPointData().GetArray("Time")).shape[0])
 
 

@@ -14,7 +14,7 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes, v
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
 import voxplex
-from filter_testing import TIMES, FilterTestCase, add_array, components, four_ball, pentatopes, series, tets
+from filter_testing import TIMES, FilterTestCase, add_array, components, four_ball, image_of_array, pentatopes, series, tets
 
 TYPES = ("CHAR", "SIGNED_CHAR", "UNSIGNED_CHAR", "SHORT", "UNSIGNED_SHORT", "INT", "UNSIGNED_INT", "LONG", "UNSIGNED_LONG",
          "LONG_LONG", "UNSIGNED_LONG_LONG", "ID_TYPE", "FLOAT", "DOUBLE")
@@ -76,12 +76,12 @@ RIGHT = numpy.where(I < 12, 0, BALL)
 class Tetrahedra(InputTestCase):
     @classmethod
     def setUpClass(cls):
-        cls.expected = cls().mesh(tets(voxplex.image_from_array(BALL)))
-        cls.right = cls().mesh(tets(voxplex.image_from_array(RIGHT)))
+        cls.expected = cls().mesh(tets(voxplex.Image(BALL).to_vtk()))
+        cls.right = cls().mesh(tets(voxplex.Image(RIGHT).to_vtk()))
 
     def test_scalars(self):
         """Of all types and in all layouts."""
-        image = voxplex.image_from_array(BALL)
+        image = voxplex.Image(BALL).to_vtk()
         plain = image.GetPointData().GetScalars()
         bits = vtkBitArray()
         bits.DeepCopy(plain)
@@ -92,7 +92,7 @@ class Tetrahedra(InputTestCase):
 
     def test_choice(self):
         """Point scalars go before cell scalars; a name and an association choose any array."""
-        image = voxplex.image_from_array(BALL)
+        image = voxplex.Image(BALL).to_vtk()
         cells = numpy.zeros((N - 1,) * 3, numpy.uint8)
         cells[8:15, 8:15, 8:15] = 5
         image.GetCellData().SetScalars(add_array(image.GetCellData(), "Cells", cells.ravel()))
@@ -116,22 +116,22 @@ class Tetrahedra(InputTestCase):
     def test_untouched(self):
         """Scalars are read in place: the filter must not change them."""
         array = BALL.copy()
-        self.mesh(tets(voxplex.image_from_array(array)))
+        self.mesh(tets(voxplex.Image(array).to_vtk()))
         numpy.testing.assert_array_equal(array, BALL)
 
     def test_hidden_points(self):
         """They are background, whatever their values are; duplicates are not hidden. The image stays as it is."""
         ghosts = numpy.where(I < 12, vtkDataSetAttributes.HIDDENPOINT, vtkDataSetAttributes.DUPLICATEPOINT)
         for values in (BALL, numpy.where(I < 12, -1.5, BALL).astype(numpy.float32)):
-            image = voxplex.image_from_array(values.copy())
+            image = voxplex.Image(values.copy()).to_vtk()
             add_array(image.GetPointData(), GHOSTS, ghosts.astype(numpy.uint8).ravel())
             self.check_same(tets(image), self.right)
-            numpy.testing.assert_array_equal(voxplex.array_from_image(image), values)
+            numpy.testing.assert_array_equal(voxplex.Image.from_vtk(image).voxels, values)
 
     def test_hidden_cells(self):
         # Points are hidden where all cells around them are: the cells from point 11 to 12 are the last hidden ones.
         grid = vtkUniformGrid()
-        grid.ShallowCopy(voxplex.image_from_array(BALL))
+        grid.ShallowCopy(voxplex.Image(BALL).to_vtk())
         for cell in numpy.flatnonzero(I[1:, 1:, 1:] <= 12):
             grid.BlankCell(cell)
         self.check_same(tets(grid), self.right)
@@ -150,9 +150,9 @@ class Tetrahedra(InputTestCase):
 
     def test_hidden_sizes(self):
         """They set no bound."""
-        sizes = voxplex.image_from_array(numpy.full(BALL.shape, 0.5, numpy.float32))
+        sizes = voxplex.Image(numpy.full(BALL.shape, 0.5, numpy.float32)).to_vtk()
         add_array(sizes.GetPointData(), GHOSTS, numpy.full(BALL.size, vtkDataSetAttributes.HIDDENPOINT, numpy.uint8))
-        mesher = tets(voxplex.image_from_array(BALL))
+        mesher = tets(voxplex.Image(BALL).to_vtk())
         mesher.SetElementSizeData(sizes)
         self.check_same(mesher, self.expected)
 
@@ -160,7 +160,7 @@ class Tetrahedra(InputTestCase):
         """Labels that were scaled and scaled back, in single precision."""
         rounded = BALL + 1e-7 * numpy.sin(I + 3.0 * J + 7.0 * K)
         for kind in (numpy.float32, float):
-            self.check_same(tets(voxplex.image_from_array(rounded.astype(kind))), self.expected)
+            self.check_same(tets(voxplex.Image(rounded.astype(kind)).to_vtk()), self.expected)
 
 
 class Pentatopes(InputTestCase):
@@ -171,7 +171,7 @@ class Pentatopes(InputTestCase):
     def test_points_and_cells(self):
         """Time steps and components, at other times."""
         times = [2.5 + 0.75 * k for k in range(9)]
-        for image_of in (voxplex.image_from_array, on_cells):
+        for image_of in (image_of_array, on_cells):
             frames = four_ball()[1:10]
             mesher = pentatopes(series(frames, times, image_of))
             image = image_of(frames[0])
@@ -213,7 +213,7 @@ class Pentatopes(InputTestCase):
     def test_scalars(self):
         """Of all types, as time steps and as components, and not contiguous in memory."""
         def image_of(frame):
-            image = voxplex.image_from_array(frame)
+            image = voxplex.Image(frame).to_vtk()
             image.GetPointData().SetScalars(converted(image.GetPointData().GetScalars(), name))
             return image
 
@@ -259,7 +259,7 @@ class Pentatopes(InputTestCase):
         mesher.SetLabelSize(7, 1.8)
         self.assertTrue(1.3 * len(without[2]) < len(self.mesh(mesher)[2]) < len(uniform[2]))
         mesher.ClearLabelSizes()
-        mesher.SetElementSizeData(voxplex.image_from_array(numpy.full((12, 12, 12), 1.8)))
+        mesher.SetElementSizeData(voxplex.Image(numpy.full((12, 12, 12), 1.8)).to_vtk())
         self.check_same(mesher, uniform)  # it applies at all times
         mesher.SetElementSizeData(None)
         self.check_same(mesher, without)
@@ -275,7 +275,7 @@ class Pentatopes(InputTestCase):
         shown, strange = four_ball(), four_ball().astype(numpy.float32)
         shown[..., :4], strange[..., :4] = 0, -1.5
         expected = self.mesh(pentatopes(series(shown)))
-        self.check_same(pentatopes(series(strange, image_of=lambda frame: hiding(voxplex.image_from_array(frame)))), expected)
+        self.check_same(pentatopes(series(strange, image_of=lambda frame: hiding(voxplex.Image(frame).to_vtk()))), expected)
         self.check_same(pentatopes(hiding(components(strange.astype(numpy.int16)))), expected)
 
     def test_rounded(self):

@@ -10,7 +10,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkImageData
 
 import voxplex
-from filter_testing import FilterTestCase, Series, add_array, components, pentatopes, tets
+from filter_testing import FilterTestCase, Series, add_array, components, image_of_array, pentatopes, tets
 from TestInputs import GHOSTS, converted, on_cells
 
 N, MIDDLE = 26, 12.5
@@ -29,32 +29,32 @@ class IsosurfaceTestCase(FilterTestCase):
         return mesher
 
     def check_same(self, first, second):
-        numpy.testing.assert_array_equal(voxplex.points(first.GetOutput()), voxplex.points(second.GetOutput()))
+        numpy.testing.assert_array_equal(voxplex.Mesh.from_vtk(first.GetOutput()).points, voxplex.Mesh.from_vtk(second.GetOutput()).points)
         numpy.testing.assert_array_equal(*(vtk_to_numpy(mesher.GetOutput().GetCells().GetConnectivityArray())
                                            for mesher in (first, second)))
 
 
 class Tetrahedra(IsosurfaceTestCase):
     def mesh(self, image, isovalue, fit=True):
-        mesher = tets(image if isinstance(image, vtkImageData) else voxplex.image_from_array(image))
+        mesher = tets(image if isinstance(image, vtkImageData) else voxplex.Image(image).to_vtk())
         mesher.SetDelta(2.0)
         mesher.SetFitInterfaces(fit)
         return self.made(mesher, isovalue)
 
     def volume(self, mesher):
-        corners = voxplex.points(mesher.GetOutput())[voxplex.tets(mesher.GetOutput())]
+        corners = voxplex.Mesh.from_vtk(mesher.GetOutput()).points[voxplex.Mesh.from_vtk(mesher.GetOutput()).cells]
         volumes = numpy.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
         self.assertGreater(volumes.min(), 0)
         return volumes.sum()
 
     def largest_distance(self, mesher, centre=MIDDLE):
         """Of a vertex on the interface from the ball."""
-        return abs(numpy.linalg.norm(voxplex.points(mesher.GetInterfaces()) - centre, axis=1) - 8).max()
+        return abs(numpy.linalg.norm(voxplex.Interfaces.from_vtk(mesher.GetInterfaces()).points - centre, axis=1) - 8).max()
 
     def test_distance(self):
         values = DEPTH.astype(numpy.float32)
         mesher = self.mesh(values, 0.0)
-        self.assertEqual(set(voxplex.labels(mesher.GetOutput())), {1})
+        self.assertEqual(set(voxplex.Mesh.from_vtk(mesher.GetOutput()).labels), {1})
         self.assertLess(self.largest_distance(self.mesh(values, 0.0, fit=False)), 0.05)
         figure = mesher.GetStatistics().GetFigure
         self.assertEqual([figure("/isosurface/value"), figure("/isosurface/range/0"), figure("/isosurface/range/1")],
@@ -70,7 +70,7 @@ class Tetrahedra(IsosurfaceTestCase):
         for name in ("CHAR", "UNSIGNED_CHAR", "SHORT", "UNSIGNED_SHORT", "INT", "UNSIGNED_INT", "LONG", "LONG_LONG", "ID_TYPE",
                      "FLOAT", "DOUBLE"):
             with self.subTest(name):
-                image = voxplex.image_from_array(values)
+                image = voxplex.Image(values).to_vtk()
                 image.GetPointData().SetScalars(converted(image.GetPointData().GetScalars(), name))
                 self.assertLess(self.largest_distance(self.mesh(image, 60.25)), 0.3)
 
@@ -84,9 +84,9 @@ class Tetrahedra(IsosurfaceTestCase):
                 mesher.SetInside(side)
                 return self.made(mesher, 0.5)
 
-            expected = mesh(voxplex.image_from_array(numpy.where(I < 0, math.nan, values)))
+            expected = mesh(voxplex.Image(numpy.where(I < 0, math.nan, values)).to_vtk())
             for kind in (numpy.int8, numpy.int16, numpy.int32, numpy.float32, float):
-                image = voxplex.image_from_array(values.astype(kind))
+                image = voxplex.Image(values.astype(kind)).to_vtk()
                 add_array(image.GetPointData(), GHOSTS, ghosts)
                 self.check_same(mesh(image), expected)
 
@@ -96,7 +96,7 @@ class Tetrahedra(IsosurfaceTestCase):
         direction = numpy.array(((c, -s, 0), (s, c, 0), (0, 0, -1)))
         k, j, i = numpy.mgrid[:N, :N, :N]
         index = numpy.stack((i, j, k), axis=-1)
-        for image_of in (voxplex.image_from_array, on_cells):
+        for image_of in (image_of_array, on_cells):
             places = index * (0.8, 1.1, 1.0) @ direction.T
             centre = numpy.array((12.4, 12.6, 12.2)) * (0.8, 1.1, 1.0) @ direction.T
             image = image_of((8 - numpy.linalg.norm(places - centre, axis=-1)).astype(numpy.float32))
@@ -111,7 +111,7 @@ class Tetrahedra(IsosurfaceTestCase):
             self.assertAlmostEqual(distance, 0.5, delta=0.06)
 
     def test_sides(self):
-        above, below = self.mesh(DEPTH, 0.25), tets(voxplex.image_from_array(-DEPTH))
+        above, below = self.mesh(DEPTH, 0.25), tets(voxplex.Image(-DEPTH).to_vtk())
         below.SetDelta(2.0)
         below.SetInsideToBelow()
         self.check_same(above, self.made(below, -0.25))
@@ -120,7 +120,7 @@ class Tetrahedra(IsosurfaceTestCase):
         above.SetInsideLabel(77)
         above.SetLabelSize(77, 1.5)
         above.Update()
-        self.assertEqual(set(voxplex.labels(above.GetOutput())), {77})
+        self.assertEqual(set(voxplex.Mesh.from_vtk(above.GetOutput()).labels), {77})
         self.assertGreater(above.GetOutput().GetNumberOfCells(), 2 * coarse)
 
     def test_smoothing(self):
@@ -153,12 +153,12 @@ class Pentatopes(IsosurfaceTestCase):
         return self.made(mesher, isovalue)
 
     def series(self, frames, isovalue=0.0, times=TIMES):
-        return self.mesh(Series(map(voxplex.image_from_array, frames), times), isovalue)
+        return self.mesh(Series(map(image_of_array, frames), times), isovalue)
 
     def volume(self, mesher):
         mesh = mesher.GetOutput()
-        points = numpy.column_stack((voxplex.points(mesh), voxplex.times(mesh)))
-        corners = points[voxplex.pentatopes(mesh)]
+        points = numpy.column_stack((voxplex.Mesh.from_vtk(mesh).points, voxplex.Mesh.from_vtk(mesh).times))
+        corners = points[voxplex.Mesh.from_vtk(mesh).cells]
         volumes = numpy.linalg.det(corners[:, 1:] - corners[:, :1]) / 24
         self.assertGreater(volumes.min(), 0)
         return volumes.sum()
@@ -197,13 +197,13 @@ class Pentatopes(IsosurfaceTestCase):
         self.assertAlmostEqual(self.volume(some) / self.volume(whole), 1, delta=1e-3)
 
     def test_side_and_label(self):
-        mesher = pentatopes(Series(map(voxplex.image_from_array, moving(depth_of=lambda depth, _: -depth)), self.TIMES))
+        mesher = pentatopes(Series(map(image_of_array, moving(depth_of=lambda depth, _: -depth)), self.TIMES))
         mesher.SetDelta(1.25)
         mesher.PickingRegionsOn()
         mesher.SetInsideToBelow()
         mesher.SetInsideLabel(12)
         self.made(mesher, 0.0)
-        self.assertEqual(set(voxplex.labels(mesher.GetOutput())), {12})
+        self.assertEqual(set(voxplex.Mesh.from_vtk(mesher.GetOutput()).labels), {12})
         self.assertAlmostEqual(self.volume(mesher) / self.HYPERVOLUME, 1, delta=0.04)
 
 

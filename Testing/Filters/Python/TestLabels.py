@@ -18,15 +18,15 @@ K, J, I = numpy.mgrid[:N, :N, :N]
 
 def two_labels():
     distance = numpy.sqrt((I - 11.5) ** 2 + (J - 11.5) ** 2 + (K - 11.5) ** 2)
-    return tets(voxplex.image_from_array(numpy.where(distance < 8, numpy.where(I < 12, 1, 2), 0).astype(numpy.uint8)))
+    return tets(voxplex.Image(numpy.where(distance < 8, numpy.where(I < 12, 1, 2), 0).astype(numpy.uint8)).to_vtk())
 
 
 class Choice(FilterTestCase):
     def check(self, mesher, labels, pairs=None):
         mesher.Update()
-        self.assertEqual(set(voxplex.labels(mesher.GetOutput())), labels)
+        self.assertEqual(set(voxplex.Mesh.from_vtk(mesher.GetOutput()).labels), labels)
         if pairs:
-            self.assertEqual({tuple(pair) for pair in voxplex.labels(mesher.GetInterfaces())}, pairs)
+            self.assertEqual({tuple(pair) for pair in voxplex.Interfaces.from_vtk(mesher.GetInterfaces()).labels}, pairs)
 
     def test_subset(self):
         mesher = two_labels()
@@ -77,7 +77,7 @@ class Choice(FilterTestCase):
 class Warnings(FilterTestCase):
     def run_filter(self, labels, delta):
         """The filter, its statistics, and a list that its warnings go into."""
-        mesher, warnings = tets(voxplex.image_from_array(labels.astype(numpy.uint8))), []
+        mesher, warnings = tets(voxplex.Image(labels.astype(numpy.uint8)).to_vtk()), []
         mesher.SetDelta(delta)
 
         @calldata_type(VTK_STRING)
@@ -92,7 +92,7 @@ class Warnings(FilterTestCase):
         labels = numpy.where((I - 12) ** 2 + (J - 12) ** 2 + (K - 12) ** 2 < 64, numpy.where(I < 12, 4, 5), 0)
         labels[12, 12, 12] = 9  # one voxel beside an interface
         mesher, statistics, warnings = self.run_filter(labels, 4.0)
-        self.assertEqual(set(voxplex.labels(mesher.GetOutput())), {4, 5, 9})
+        self.assertEqual(set(voxplex.Mesh.from_vtk(mesher.GetOutput()).labels), {4, 5, 9})
         self.assertEqual((statistics.GetNumberOfLostLabels(), warnings), (0, []))
         mesher.SetSmallestComponent(0)
         mesher.Update()

@@ -26,7 +26,7 @@ class Case:
     """Voxels 2 to 5 of each axis have label 3; so do the tetrahedra, shifted by this along the first axis."""
 
     def __init__(self, shift=0.0, spacing=1.0, origin=(0, 0, 0), direction=numpy.eye(3)):
-        self.image = voxplex.image_from_array(BOX.copy(), spacing=(spacing,) * 3, origin=origin, direction=direction)
+        self.image = voxplex.Image(BOX.copy(), spacing=(spacing,) * 3, origin=origin, direction=direction).to_vtk()
         index = numpy.array([[1.5 + 4 * (corner >> axis & 1) for axis in range(3)] for corner in range(8)])
         points = vtkPoints()
         points.SetDataTypeToDouble()
@@ -42,7 +42,7 @@ class Case:
         self.filter.SetImageData(self.image)
 
     def voxels(self):
-        return voxplex.array_from_image(self.image)
+        return voxplex.Image.from_vtk(self.image).voxels
 
     def figures(self):
         """After another execution."""
@@ -150,7 +150,7 @@ class Meshes(unittest.TestCase):
     def ball(delta, labels):
         k, j, i = numpy.mgrid[:24, :24, :24] - 11.5
         halves = numpy.where(i < 0, *labels)
-        mesher = tets(voxplex.image_from_array(numpy.where(i * i + j * j + k * k < 64, halves, 0).astype(numpy.uint8)))
+        mesher = tets(voxplex.Image(numpy.where(i * i + j * j + k * k < 64, halves, 0).astype(numpy.uint8)).to_vtk())
         mesher.SetDelta(delta)
         mesher.ComputeQualityOn()
         quality = voxplex.vtkSimplexMeshQuality()

@@ -27,7 +27,7 @@ def two_labels():
 
 def make_filter(array, **placement):
     mesher = voxplex.vtkImageToTetMeshFilter()
-    mesher.SetInputData(voxplex.image_from_array(array, **placement))
+    mesher.SetInputData(voxplex.Image(array, **placement).to_vtk())
     mesher.SetNumberOfThreads(1)
     return mesher
 
@@ -42,12 +42,12 @@ class Tetrahedra(unittest.TestCase):
         mesher.FitInterfacesOff()
         mesher.Update()
         contour = vtkFlyingEdges3D()
-        contour.SetInputData(voxplex.image_from_array(density))
+        contour.SetInputData(voxplex.Image(density).to_vtk())
         contour.SetValue(0, 40.0)
         contour.Update()
         distance = vtkImplicitPolyDataDistance()
         distance.SetInput(contour.GetOutput())
-        off = [abs(distance.EvaluateFunction(point)) for point in voxplex.points(mesher.GetInterfaces())]
+        off = [abs(distance.EvaluateFunction(point)) for point in voxplex.Interfaces.from_vtk(mesher.GetInterfaces()).points]
         self.assertGreater(len(off), 300)
         # What lies within a cell: VTK's triangles are plane, the interpolation is trilinear.
         self.assertLess(numpy.mean(off), 0.01)
@@ -95,7 +95,7 @@ class Tetrahedra(unittest.TestCase):
                 mesher.SetSmallestComponent(smallest)
                 mesher.SetInterfaceRounds(rounds)
                 mesher.Update()
-                self.assertEqual(set(voxplex.labels(mesher.GetOutput())) - ({5} - labels), labels)
+                self.assertEqual(set(voxplex.Mesh.from_vtk(mesher.GetOutput()).labels) - ({5} - labels), labels)
                 statistics = mesher.GetStatistics()
                 self.assertEqual(statistics.GetNumberOfComponents(), components)
                 self.assertEqual(statistics.GetNumberOfLostComponents(), 0)
@@ -103,7 +103,7 @@ class Tetrahedra(unittest.TestCase):
         mesher.SetMinimumComponentVolume(8.5)
         errors = errors_of(mesher)
         mesher.Update()
-        self.assertEqual(set(voxplex.labels(mesher.GetOutput())), {1})
+        self.assertEqual(set(voxplex.Mesh.from_vtk(mesher.GetOutput()).labels), {1})
         self.assertEqual(errors, [])
         statistics = mesher.GetStatistics()
         self.assertEqual((statistics.GetNumberOfLostLabels(), statistics.GetNumberOfDroppedComponents()), (0, 2))
@@ -156,7 +156,7 @@ class SpaceTime(unittest.TestCase):
         """The mesh is made once, however many of its slices are asked for."""
         k, j, i = numpy.mgrid[:12, :12, :12] - 5.5
         times = [2.0, 2.5, 3.0, 3.5]
-        source = Series([voxplex.image_from_array((i * i + j * j + k * k < (1.5 + time) ** 2).astype(numpy.uint8))
+        source = Series([voxplex.Image((i * i + j * j + k * k < (1.5 + time) ** 2).astype(numpy.uint8)).to_vtk()
                          for time in times], times)
         mesher = voxplex.vtkImageToPentatopeMeshFilter()
         mesher.SetInputConnection(source.GetOutputPort())

@@ -66,7 +66,7 @@ class Series(VTKPythonAlgorithmBase):
 
 def components(frames):
     """One image with a component for each frame."""
-    image = voxplex.image_from_array(frames[0])
+    image = voxplex.Image(frames[0]).to_vtk()
     scalars = add_array(image.GetPointData(), "Frames", numpy.stack([frame.ravel() for frame in frames], axis=1))
     image.GetPointData().SetScalars(scalars)
     return image
@@ -89,7 +89,11 @@ def four_ball(radius=4.2):
     return numpy.where(inside, numpy.where(i < 0, 3, 7), 0).astype(numpy.uint8)
 
 
-def series(array, times=TIMES, image_of=voxplex.image_from_array):
+def image_of_array(array):
+    return voxplex.Image(array).to_vtk()
+
+
+def series(array, times=TIMES, image_of=image_of_array):
     return Series(map(image_of, array), times)
 
 

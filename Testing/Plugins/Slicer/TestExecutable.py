@@ -254,7 +254,7 @@ class Refusals(ModuleTestCase):
                 "--space: 'LAS' is not one of LPS, RAS": ("--space", "LAS", "a", "b.vtu"),
                 "is not an address": ("--processinformationaddress", "here", "a", "b.vtu"),
                 "'b.xyz': its extension is not that of a format known here; use .vtu": ("ball.nrrd", "b.xyz"),
-                "'s.vtu': .* use .vtp": ("--surfaces", "s.vtu", "ball.nrrd", "b.vtu")}.items():
+                "'s.msh': .* use .vtp": ("--surfaces", "s.msh", "ball.nrrd", "b.vtu")}.items():
             with self.subTest(arguments):
                 done = self.assert_refused(2, pattern, *arguments)
                 self.assertRegex(done.stderr, "see --help\n$")

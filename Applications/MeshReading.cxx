@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshReading.h"
+
+#include "Errors.h"
+#include "FileError.h"
+#include "ImageReading/VTKFileStructure.h"
+#include "ImageReading/VTKMessages.h"
+#include "Interruption.h"
+#include "MeshChecks.h"
+#include "Text.h"
+
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <cmath>
+#include <filesystem>
+#include <new>
+
+namespace voxplex::cli
+{
+namespace
+{
+
+bool HasPentatopes(vtkUnstructuredGrid* mesh)
+{
+  return mesh->GetNumberOfCells() > 0 && mesh->GetCellType(0) == VTK_POLY_VERTEX;
+}
+
+/** @param extension of the file @param kind what VTK calls its content */
+template <typename TReader, typename TData>
+vtkSmartPointer<TData> Read(
+  const std::string& path, const std::string& extension, const std::string& kind)
+{
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  io::RefuseIf(!fs::exists(path, ignored), "there is no such file");
+  io::RefuseIf(io::LowerCase(fs::path(path).extension().string()) != extension, "it is not a ",
+    extension, " file");
+  io::CheckStructureOfMesh(io::InputFile(path), kind);
+  const io::VTKMessages messages;
+  vtkNew<TReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  messages.CheckErrors();
+  return reader->GetOutput();
+}
+
+void CheckMesh(vtkUnstructuredGrid* mesh)
+{
+  const bool isSpaceTime = HasPentatopes(mesh);
+  io::CheckCells(mesh, isSpaceTime ? VTK_POLY_VERTEX : VTK_TETRA, isSpaceTime ? 5 : 4,
+    isSpaceTime ? "its first cell is a pentatope (VTK_POLY_VERTEX of five points), so all must be"
+                : "its cells must be tetrahedra, or pentatopes (VTK_POLY_VERTEX of five points)",
+    "");
+  io::CheckArray(mesh->GetCellData(), "Label", 1, mesh->GetNumberOfCells(), "its cells have",
+    "; it holds the label of each cell");
+  if (!isSpaceTime)
+  {
+    return;
+  }
+  vtkDataArray* const times = io::CheckArray(mesh->GetPointData(), "Time", 1,
+    mesh->GetNumberOfPoints(), "its points have", "; it holds the time of each point");
+  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
+  {
+    io::RefuseIf(
+      !std::isfinite(times->GetComponent(point, 0)), "the time of point ", point, " is not finite");
+  }
+}
+
+bool IsVTU(const std::string& path)
+{
+  return io::LowerCase(std::filesystem::path(path).extension().string()) == ".vtu";
+}
+
+vtkSmartPointer<vtkDataSet> ReadInterfaces(const std::string& path, bool isSpaceTime)
+{
+  if (!isSpaceTime && !IsVTU(path))
+  {
+    const auto surface = Read<vtkXMLPolyDataReader, vtkPolyData>(path, ".vtp", "PolyData");
+    io::CheckTriangles(surface, "interfaces of tetrahedra are triangles, and it has other cells");
+    return surface;
+  }
+  const auto cells =
+    Read<vtkXMLUnstructuredGridReader, vtkUnstructuredGrid>(path, ".vtu", "UnstructuredGrid");
+  if (isSpaceTime)
+  {
+    io::CheckCells(cells, VTK_TETRA, 4, "interfaces of pentatopes are tetrahedra", "");
+    return cells;
+  }
+  io::CheckCells(cells, VTK_TRIANGLE, 3, "interfaces of tetrahedra are triangles", "");
+  const auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->SetPoints(cells->GetPoints());
+  surface->SetPolys(cells->GetCells());
+  surface->GetPointData()->ShallowCopy(cells->GetPointData());
+  surface->GetCellData()->ShallowCopy(cells->GetCellData());
+  surface->SetFieldData(cells->GetFieldData());
+  return surface;
+}
+
+void CheckArraysOfInterfaces(vtkDataSet* interfaces, vtkIdType numberOfPoints)
+{
+  io::CheckArray(interfaces->GetCellData(), "Labels", 2, interfaces->GetNumberOfCells(),
+    "its cells have", "; it holds the labels of both sides");
+  io::CheckArray(interfaces->GetPointData(), "PointIds", 1, interfaces->GetNumberOfPoints(),
+    "its points have", "; it holds their numbers in the mesh");
+  io::CheckPointIds(interfaces, numberOfPoints);
+}
+
+/** Calls read(), and says which file it was if that fails. */
+template <typename TFunction>
+void Named(const std::string& path, TFunction&& read)
+{
+  const std::string begin = "cannot read '" + path + "': ";
+  const Interruption::CrashReport report(
+    "voxplex: " + begin + "its reading ended with a crash: it is damaged, or made to do harm\n");
+  try
+  {
+    read();
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw RunError(begin + "it does not fit into memory");
+  }
+  catch (const io::FileError& error)
+  {
+    throw RunError(begin + error.what());
+  }
+}
+
+} // namespace
+
+int MeshWithInterfaces::Dimension() const
+{
+  return HasPentatopes(this->Mesh) ? 4 : 3;
+}
+
+MeshWithInterfaces ReadMeshFiles(const std::string& mesh, const std::string& interfaces)
+{
+  MeshWithInterfaces result;
+  Named(mesh,
+    [&]
+    {
+      result.Mesh =
+        Read<vtkXMLUnstructuredGridReader, vtkUnstructuredGrid>(mesh, ".vtu", "UnstructuredGrid");
+      CheckMesh(result.Mesh);
+    });
+  if (!interfaces.empty())
+  {
+    Named(interfaces,
+      [&]
+      {
+        const auto cells = ReadInterfaces(interfaces, HasPentatopes(result.Mesh));
+        CheckArraysOfInterfaces(cells, result.Mesh->GetNumberOfPoints());
+        result.Interfaces = cells;
+      });
+  }
+  return result;
+}
+
+} // namespace voxplex::cli

@@ -1,0 +1,41 @@
+# The part of the package `voxplex` that is written in Python, the same with the wrapped classes and in the wheel.
+
+set(_voxplex_python_files
+  __init__.py
+  __main__.py
+  errors.py
+  fields.py
+  files.py
+  images.py
+  measuring.py
+  meshes.py
+  program.py
+  py.typed
+  pyvista_accessor.py
+  vtkdata.py
+  xmlfiles.py)
+
+# Assembles it in `folder`, and installs it.
+#
+# program: where the command line program is, seen from there
+function (voxplex_python_layer folder program destination component)
+  foreach (_voxplex_file IN LISTS _voxplex_python_files)
+    configure_file("Python/voxplex/${_voxplex_file}" "${folder}/${_voxplex_file}" COPYONLY)
+  endforeach ()
+  set(_voxplex_program "${program}")
+  configure_file(Python/voxplex/installation.py.in "${folder}/installation.py" @ONLY)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  add_custom_command(
+    OUTPUT "${folder}/meshing.py"
+    COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/Parameters/write_python.py"
+      "$<TARGET_FILE:voxplexParameters>" "${CMAKE_CURRENT_SOURCE_DIR}/Python/voxplex/meshing.py.in"
+      "${folder}/meshing.py"
+    DEPENDS voxplexParameters Parameters/write_python.py Python/voxplex/meshing.py.in
+    VERBATIM)
+  add_custom_target(VoxplexMeshingPy ALL DEPENDS "${folder}/meshing.py")
+  list(TRANSFORM _voxplex_python_files PREPEND "${folder}/")
+  install(
+    FILES       ${_voxplex_python_files} "${folder}/installation.py" "${folder}/meshing.py"
+    DESTINATION "${destination}"
+    COMPONENT   "${component}")
+endfunction ()

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file VTKMessages.h
+ * @brief What VTK's readers say about a file.
+ */
+#ifndef voxplex_io_VTKMessages_h
+#define voxplex_io_VTKMessages_h
+
+#include <vtkSmartPointer.h>
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace voxplex::io
+{
+
+class CollectingWindow;
+
+/** Collects the messages of this thread for as long as it lives. One thread reads at a time. */
+class VTKMessages
+{
+public:
+  VTKMessages();
+  ~VTKMessages();
+  VTKMessages(const VTKMessages&) = delete;
+  VTKMessages& operator=(const VTKMessages&) = delete;
+
+  /** @throws FileError with the first error, if there is one */
+  void CheckErrors() const;
+
+  const std::vector<std::string>& Warnings() const;
+
+private:
+  std::unique_lock<std::mutex> Turn;
+  int AreShown;
+  vtkSmartPointer<CollectingWindow> Window;
+};
+
+} // namespace voxplex::io
+
+#endif

@@ -1,0 +1,68 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Names of labels, which travel with images and meshes as field data.
+
+The arrays are `LabelValues`, `LabelNames` and `LabelColors`: one row a label, in increasing order of the value,
+background not listed. `SPACE` has the coordinate system, LPS or RAS.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Dict, List, Mapping, Union
+
+import numpy
+from numpy.typing import NDArray
+
+Fields = Dict[str, Union[NDArray[Any], List[str]]]
+"""Field data: arrays of numbers, or lists of texts, by name."""
+
+Label = Union[int, str]
+"""A label's value, or its name where the image has names."""
+
+_VALUES = "LabelValues"
+_NAMES = "LabelNames"
+_COLORS = "LabelColors"
+OF_LABELS = (_VALUES, _NAMES, _COLORS)
+
+
+def names_in(fields: Fields) -> Dict[int, str]:
+    """The names of labels, by value. Labels without a name are not in it."""
+    values = fields.get(_VALUES)
+    names = fields.get(_NAMES)
+    if values is None or names is None:
+        return {}
+    return {int(value): str(name) for value, name in zip(values, names) if name}
+
+
+def set_names(fields: Fields, names: Mapping[int, str]) -> None:
+    """Replaces names and colours.
+
+    Raises ValueError for a value below 1, which no tissue has.
+    """
+    values = sorted(names)
+    if values and values[0] < 1:
+        raise ValueError(f"labels are whole numbers from 1 on, not {values[0]}")
+    for array in OF_LABELS:
+        fields.pop(array, None)
+    if values:
+        large = values[-1] >= 2 ** 31
+        fields[_VALUES] = numpy.array(values, dtype=numpy.int64 if large else numpy.int32)
+        fields[_NAMES] = [names[value] for value in values]
+
+
+def label_value(label: Label, names: Mapping[int, str]) -> int:
+    """The value of a label that is given by its value or its name.
+
+    Raises ValueError for a name that none or several labels have, and for a number that is not whole.
+    """
+    if not isinstance(label, str):
+        if not float(label).is_integer():
+            raise ValueError(f"labels are whole numbers, not {label!r}")
+        return int(label)
+    found = [value for value, name in names.items() if name == label]
+    if len(found) == 1:
+        return found[0]
+    if found:
+        raise ValueError(f"several labels are called {label!r}: {found}; give the value")
+    known = ", ".join(repr(name) for name in names.values()) or "the image has no label names"
+    raise ValueError(f"no label is called {label!r} ({known})")

@@ -1,0 +1,129 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the command line program, which does the work, as Python functions run.
+
+A process of its own meets no other VTK, needs nothing of Python's lock, and leaves Python alone if it ends badly. Errors
+are raised, warnings issued; Ctrl-C and whatever a callback raises end the program.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import warnings
+from typing import Any, Callable, Iterable, List, Optional, Tuple
+
+from . import installation
+from .errors import ArgumentError, FileError, MeshingCancelled, MeshingError, MeshingWarning
+
+Progress = Callable[[float], object]
+"""Called with the fraction done, 0 to 1. False, or another value that is false except None, cancels."""
+
+_PROGRESS = re.compile(r"(\d+) %")
+_WARNING = "voxplex: warning: "
+_NAME = "voxplex: "
+_DOING = re.compile(r"cannot (?:(?:mesh|measure) '.*?'|(?:mesh|measure|read) the (?:image|mesh)): ", re.DOTALL)
+
+
+def path() -> str:
+    """Of the program. Raises RuntimeError if it was not built."""
+    program = os.path.normpath(installation.PROGRAM)
+    if not os.access(program, os.X_OK):
+        raise RuntimeError(f"the command line program is not installed: there is no {program}. It is built where "
+                           "GDCM and Boost are found")
+    return program
+
+
+def run(arguments: List[str], progress: Optional[Progress] = None,
+        words: Iterable[Tuple[str, str]] = ()) -> None:
+    """Runs the program with these arguments.
+
+    words: what messages are to say in place of texts of the program's, such as the names of files that only pass data.
+
+    Raises MeshingError, ArgumentError or FileError with the program's message, MeshingCancelled, and what the callback
+    raises. Its warnings are issued as MeshingWarning, at the first caller outside of this package.
+    """
+    command = [path(), *arguments, "--messages=python", *(["--progress"] if progress else [])]
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    assert process.stderr is not None
+    said: List[str] = []
+    try:
+        with process.stderr as stream:
+            for line in stream:
+                text = os.fsdecode(line).rstrip("\n")
+                found = _PROGRESS.match(text) if progress else None
+                if found and progress:
+                    _report(progress, int(found[1]) / 100)
+                else:
+                    said.append(text)
+        process.wait()
+        if progress and process.returncode == 0:
+            _report(progress, 1.0)
+    except BaseException:
+        _end(process)
+        raise
+    texts = _messages(said)
+    for theirs, ours in words:
+        texts = [text.replace(theirs, ours) for text in texts]
+    for warning in texts:
+        if warning.startswith(_WARNING):
+            _warn(warning[len(_WARNING):])
+    if process.returncode != 0:
+        raise _failure(process.returncode, [text for text in texts if not text.startswith(_WARNING)])
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    """Gives it time to remove its temporary files."""
+    process.terminate()
+    try:
+        process.wait(10)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+
+
+def _report(progress: Progress, fraction: float) -> None:
+    answer = progress(fraction)
+    if answer is not None and not answer:
+        raise MeshingCancelled("it was cancelled")
+
+
+def _messages(lines: List[str]) -> List[str]:
+    """A message begins with the program's name, and may have several lines."""
+    messages: List[str] = []
+    for line in lines:
+        if line.startswith(_NAME) or not messages:
+            messages.append(line)
+        else:
+            messages[-1] += "\n" + line
+    return messages
+
+
+def _failure(status: int, messages: List[str]) -> Exception:
+    texts = [text[len(_NAME):] if text.startswith(_NAME) else text for text in messages]
+    if status == 2:
+        return ArgumentError("\n".join(text for text in texts if not text.startswith("see voxplex --help")))
+    text = "\n".join(texts)
+    if status > 128:
+        return MeshingCancelled(text)
+    if status < 0:
+        return MeshingError(f"the program was ended by signal {-status}" + (": " + text if text else ""))
+    if status != 1:
+        return MeshingError(f"the program ended with status {status}: {text}")
+    found = _DOING.match(text)
+    if found or "out of memory" in text:
+        return MeshingError(text[found.end():] if found else text)
+    return FileError(text)
+
+
+def _warn(text: str) -> None:
+    """As of the caller's line, however deep this is called."""
+    folder = os.path.dirname(os.path.abspath(__file__))
+    depth = 1
+    frame: Any = sys._getframe()
+    while frame is not None and os.path.dirname(os.path.abspath(frame.f_code.co_filename)) == folder:
+        frame = frame.f_back
+        depth += 1
+    warnings.warn(text, MeshingWarning, stacklevel=depth)

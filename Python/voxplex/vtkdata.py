@@ -1,0 +1,259 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Images and meshes as data of VTK and back, sharing memory. Any VTK from 9.1 on will do."""
+
+from __future__ import annotations
+
+from typing import Any, List, Optional, Sequence, Tuple
+
+import numpy
+from numpy.typing import NDArray
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import (
+    vtkCellArray, vtkDataObject, vtkDataSetAttributes, vtkFieldData, vtkImageData, vtkPointSet, vtkPolyData,
+    vtkUnstructuredGrid)
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+
+from .fields import Fields
+from .images import Image
+from .xmlfiles import ACTIVE, CELL_TYPE, CORNERS, IDS, Arrays
+
+_GHOSTS = "vtkGhostType"
+_TEXTS = ("LabelNames", "SurfaceNames", "SPACE")
+
+
+def image_to_vtk(image: Image) -> Any:
+    """A vtkImageData; of a time series a list of them, each with its time."""
+    if not image.is_series:
+        return _frame_to_vtk(image, image.voxels, image.mask)
+    frames = []
+    for number, time in enumerate(image.times):
+        frame = _frame_to_vtk(image, image.voxels[number], None if image.mask is None else image.mask[number])
+        frame.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), time)
+        frames.append(frame)
+    return frames
+
+
+def image_from_vtk(data: Any, times: Optional[Sequence[float]]) -> Image:
+    """Of a vtkImageData, a list of them, or an algorithm."""
+    frames, dated = _frames(data)
+    if times is None and len(frames) > 1:
+        times = dated
+    for frame in frames:
+        if not isinstance(frame, vtkImageData):
+            raise TypeError(f"image must be a vtkImageData, not {type(frame).__name__}")
+    voxels = [_voxels(frame) for frame in frames]
+    components = voxels[0].shape[3] if voxels[0].ndim == 4 else 1
+    if components > 1 and times is None:
+        raise ValueError(f"the image has {components} components in each voxel: if they are time frames, pass "
+                         "their times (times=[0, 1, ...]); of colours or vectors, extract one component "
+                         "(vtkImageExtractComponents), or make labels of them")
+    masks = [_mask(frame, own) for frame, own in zip(frames, voxels)]
+    if components > 1:
+        stack = numpy.moveaxis(voxels[0], -1, 0)
+        mask = None if masks[0] is None else numpy.broadcast_to(masks[0], stack.shape)
+    elif isinstance(data, vtkImageData) or len(frames) == 1 and isinstance(data, vtkAlgorithm):
+        stack, mask = voxels[0], masks[0]
+    else:
+        if len({own.shape for own in voxels}) > 1:
+            raise ValueError(f"the frames have different shapes: {sorted({own.shape for own in voxels})}")
+        stack = numpy.stack(voxels)
+        hidden = [numpy.zeros(own.shape, bool) if one is None else one for own, one in zip(voxels, masks)]
+        mask = numpy.stack(hidden) if any(one is not None for one in masks) else None
+    spacing, origin, direction = _place(frames[0])
+    image = Image(stack, spacing=spacing, origin=origin, direction=direction, times=times)
+    image.mask = mask
+    image.field_data = _fields(frames[0].GetFieldData())
+    return image
+
+
+def mesh_to_vtk(arrays: Arrays) -> Any:
+    """A vtkUnstructuredGrid, of triangles a vtkPolyData, that shares the arrays' memory."""
+    corners = arrays.cells.shape[1]
+    cells = vtkCellArray()
+    if len(arrays.cells):
+        connectivity = arrays.cells.reshape(-1)
+        cells.SetData(corners, _share(connectivity, ids=True))
+        _keep(connectivity, cells.GetConnectivityArray())  # VTK may have another array with the same memory
+    if corners == 3:
+        result: Any = vtkPolyData()
+        result.SetPolys(cells)
+    else:
+        result = vtkUnstructuredGrid()
+        result.SetCells(CELL_TYPE[corners], cells)
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    if len(arrays.points):
+        points.SetData(_share(arrays.points))
+    result.SetPoints(points)
+    for target, data in ((result.GetPointData(), arrays.point_data), (result.GetCellData(), arrays.cell_data)):
+        for name, values in data.items():
+            target.AddArray(_named(name, values))
+        if ACTIVE in data:
+            target.SetActiveScalars(ACTIVE)
+    _set_fields(result.GetFieldData(), arrays.field_data)
+    return result
+
+
+def mesh_from_vtk(data: vtkPointSet) -> Arrays:
+    """Of a vtkUnstructuredGrid or a vtkPolyData of one kind of cells. Raises ValueError for others."""
+    if isinstance(data, vtkPolyData):
+        others = data.GetNumberOfCells() - data.GetNumberOfPolys()
+        corners, cells = 3, data.GetPolys()
+    elif isinstance(data, vtkUnstructuredGrid):
+        count = data.GetNumberOfCells()
+        corners = CORNERS.get(data.GetCellType(0), 0) if count else 4
+        kind = data.GetCellType(0) if count else 0
+        others = 0 if count == 0 or data.IsHomogeneous() else sum(data.GetCellType(cell) != kind for cell in range(count))
+        cells = data.GetCells()
+    else:
+        raise TypeError(f"a mesh must be a vtkUnstructuredGrid or a vtkPolyData, not {type(data).__name__}")
+    if others or corners == 0 or cells.GetNumberOfCells() and cells.IsHomogeneous() != corners:
+        raise ValueError("the cells are not all of one kind: triangles, tetrahedra or pentatopes (VTK_POLY_VERTEX of five points)")
+    connectivity = (vtk_to_numpy(cells.GetConnectivityArray()) if cells.GetNumberOfCells() else
+                    numpy.empty(0, dtype=numpy.int64))
+    points = vtk_to_numpy(data.GetPoints().GetData()) if data.GetPoints() is not None else numpy.empty((0, 3))
+    return Arrays(points, connectivity.reshape(-1, corners), _data(data.GetPointData()), _data(data.GetCellData()),
+                  _fields(data.GetFieldData()))
+
+
+def _frames(data: Any) -> Tuple[List[Any], Optional[List[float]]]:
+    """The frames of an image, and the times that they carry."""
+    if isinstance(data, vtkAlgorithm):
+        return _outputs(data)
+    frames = [data] if isinstance(data, vtkImageData) else list(data)
+    key = vtkDataObject.DATA_TIME_STEP()
+    dated = [frame.GetInformation().Has(key) == 1 for frame in frames]
+    if all(dated):
+        return frames, [frame.GetInformation().Get(key) for frame in frames]
+    if any(dated):
+        raise ValueError(f"frame {dated.index(False)} has no time, but others have; pass times=")
+    return frames, None
+
+
+def _outputs(algorithm: vtkAlgorithm) -> Tuple[List[Any], Optional[List[float]]]:
+    """What an algorithm makes, at each of its times."""
+    algorithm.UpdateInformation()
+    information = algorithm.GetOutputInformation(0)
+    times = list(information.Get(Pipeline.TIME_STEPS())) if information.Has(Pipeline.TIME_STEPS()) else []
+    frames = []
+    for time in times or [None]:
+        algorithm.Update() if time is None else algorithm.UpdateTimeStep(time)
+        output = algorithm.GetOutputDataObject(0)
+        frames.append(output.NewInstance())
+        frames[-1].ShallowCopy(output)
+    return frames, times if len(times) > 1 else None
+
+
+def _scalars(image: vtkImageData) -> Tuple[Any, bool]:
+    """The labels, and whether they are those of cells."""
+    points = image.GetPointData().GetScalars()
+    scalars = points or image.GetCellData().GetScalars()
+    if scalars is None:
+        raise ValueError("the image has no active scalars, neither of points nor of cells")
+    return scalars, points is None
+
+
+def _voxels(image: vtkImageData) -> NDArray[Any]:
+    """Indexed [k, j, i], or [k, j, i, component]."""
+    scalars, of_cells = _scalars(image)
+    shape = tuple(max(n - 1, 1) if of_cells else n for n in reversed(image.GetDimensions()))
+    components = scalars.GetNumberOfComponents()
+    return vtk_to_numpy(scalars).reshape(shape if components == 1 else shape + (components,))
+
+
+def _mask(image: vtkImageData, voxels: NDArray[Any]) -> Optional[NDArray[numpy.bool_]]:
+    of_cells = _scalars(image)[1]
+    ghosts = (image.GetCellData() if of_cells else image.GetPointData()).GetArray(_GHOSTS)
+    if ghosts is None:
+        return None
+    hidden = vtkDataSetAttributes.HIDDENCELL if of_cells else vtkDataSetAttributes.HIDDENPOINT
+    return (vtk_to_numpy(ghosts).reshape(voxels.shape[:3]) & hidden) != 0
+
+
+def _place(image: vtkImageData) -> Tuple[Any, Any, Any]:
+    """Spacing, the place of the first voxel, and the direction."""
+    matrix = image.GetDirectionMatrix()
+    direction = numpy.array([[matrix.GetElement(row, column) for column in range(3)] for row in range(3)])
+    spacing = numpy.array(image.GetSpacing())
+    first = numpy.array(image.GetExtent()[::2]) + (0.5 if _scalars(image)[1] else 0.0)
+    return spacing, numpy.array(image.GetOrigin()) + direction @ (first * spacing), direction
+
+
+def _frame_to_vtk(image: Image, voxels: NDArray[Any], mask: Optional[NDArray[numpy.bool_]]) -> vtkImageData:
+    result = vtkImageData()
+    result.SetDimensions(*reversed(voxels.shape))
+    result.SetSpacing(*image.spacing)
+    result.SetOrigin(*image.origin)
+    result.SetDirectionMatrix(*image.direction.reshape(-1))
+    if mask is not None:
+        voxels = numpy.where(mask, voxels.dtype.type(numpy.nan if voxels.dtype.kind == "f" else 0), voxels)
+    if voxels.dtype == numpy.bool_:
+        voxels = voxels.view(numpy.uint8)
+    voxels = numpy.ascontiguousarray(voxels, dtype=voxels.dtype.newbyteorder("="))
+    if voxels.size:
+        result.GetPointData().SetScalars(_named("Labels", voxels.reshape(-1)))
+    if mask is not None:
+        hidden = numpy.where(mask.reshape(-1), numpy.uint8(vtkDataSetAttributes.HIDDENPOINT), numpy.uint8(0))
+        result.GetPointData().AddArray(_named(_GHOSTS, hidden))
+    _set_fields(result.GetFieldData(), image.field_data)
+    return result
+
+
+def _named(name: str, values: NDArray[Any]) -> vtkDataArray:
+    array = _share(numpy.ascontiguousarray(values), name in IDS)
+    array.SetName(name)
+    return array
+
+
+def _share(values: NDArray[Any], ids: bool = False) -> vtkDataArray:
+    """A VTK array over the memory of a NumPy array, which it keeps alive for as long as it lives itself.
+
+    numpy_to_vtk() leaves that to an attribute of the Python object, which VTK keeps longer than the
+    array. An observer dies with the array.
+    """
+    if values.size == 0:
+        return numpy_to_vtk(values, deep=True)
+    result = (numpy_to_vtkIdTypeArray if ids else numpy_to_vtk)(values)
+    if hasattr(result, "_numpy_reference"):
+        del result._numpy_reference
+    _keep(values, result)
+    return result
+
+
+def _keep(values: NDArray[Any], array: vtkDataArray) -> None:
+    """Keeps the memory for as long as the VTK array lives."""
+    def owner(_caller: Any, _event: str, memory: NDArray[Any] = values) -> NDArray[Any]:
+        return memory
+
+    array.AddObserver("UserEvent", owner)
+
+
+def _data(data: vtkFieldData) -> Any:
+    arrays = {data.GetArrayName(n): data.GetArray(n) for n in range(data.GetNumberOfArrays())}
+    return {name: vtk_to_numpy(array) for name, array in arrays.items() if name and array is not None}
+
+
+def _fields(data: vtkFieldData) -> Fields:
+    result: Fields = _data(data)
+    for n in range(data.GetNumberOfArrays()):
+        array = data.GetAbstractArray(n)
+        if array.IsA("vtkStringArray"):
+            result[array.GetName()] = [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+        elif array.GetName() in _TEXTS:
+            result[array.GetName()] = [text.decode(errors="replace") for text in bytes(array).split(b"\0")[:-1]]
+    return result
+
+
+def _set_fields(data: vtkFieldData, fields: Fields) -> None:
+    for name, values in fields.items():
+        if isinstance(values, list):
+            array = vtkStringArray()
+            array.SetName(name)
+            for text in values:
+                array.InsertNextValue(text)
+            data.AddArray(array)
+        else:
+            data.AddArray(_named(name, values))

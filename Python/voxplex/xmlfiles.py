@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The files in which the program gets and gives meshes: VTK's XML, arrays appended as they are in memory."""
+
+from __future__ import annotations
+
+import struct
+from typing import Any, Dict, List, Mapping, Union
+from xml.etree import ElementTree
+from xml.sax.saxutils import quoteattr
+
+import numpy
+from numpy.typing import NDArray
+
+from .fields import Fields
+
+_APPENDED = b'<AppendedData encoding="raw">'
+_TEXTS = ("LabelNames", "SurfaceNames", "SPACE")  # have bytes in place of strings in files of meshes
+
+# By VTK's type of a cell of a mesh, or of interfaces: a triangle, a tetrahedron, a pentatope.
+CORNERS = {5: 3, 10: 4, 2: 5}
+ACTIVE = "Label"  # the array that other programs show first
+IDS = ("PointIds",)  # numbers of points, which VTK has a type for
+CELL_TYPE = {corners: cell_type for cell_type, corners in CORNERS.items()}
+
+
+class Arrays:
+    """Those of a file: points, cells (one row of point numbers each), and data by name."""
+
+    def __init__(self, points: NDArray[Any], cells: NDArray[Any], point_data: Dict[str, NDArray[Any]],
+                 cell_data: Dict[str, NDArray[Any]], field_data: Fields) -> None:
+        self.points = points
+        self.cells = cells
+        self.point_data = point_data
+        self.cell_data = cell_data
+        self.field_data = field_data
+
+
+def read(path: str) -> Arrays:
+    """Reads a .vtu file of one kind of cells that the program wrote with --uncompressed."""
+    with open(path, "rb") as file:
+        header = bytearray()
+        while _APPENDED not in header:
+            block = file.read(1 << 16)
+            if not block:
+                raise ValueError(f"{path} has no appended data")
+            header += block
+        head = bytes(header).partition(_APPENDED)[0]
+        start = header.index(b"_", len(head)) + 1
+        tree = ElementTree.fromstring(head + b"</VTKFile>")
+        found: Dict[str, Dict[str, Any]] = {}
+        for parent in tree.iter():
+            for element in parent:
+                if element.tag in ("DataArray", "Array"):
+                    found.setdefault(parent.tag, {})[element.get("Name", "")] = _read_array(file, start, element)
+    nothing: Dict[str, Any] = {}
+    points = found["Points"].popitem()[1]
+    cells = found["Cells"]
+    types = cells["types"]
+    corners = CORNERS[int(types[0])] if len(types) else 4
+    fields: Fields = found.get("FieldData", nothing)
+    for name in _TEXTS:
+        if name in fields and not isinstance(fields[name], list):
+            fields[name] = _texts(numpy.asarray(fields[name]))
+    return Arrays(points.reshape(-1, 3), cells["connectivity"].reshape(-1, corners), found.get("PointData", nothing),
+                  found.get("CellData", nothing), fields)
+
+
+def _read_array(file: Any, start: int, element: ElementTree.Element) -> Union[NDArray[Any], List[str]]:
+    file.seek(start + int(element.get("offset", "0")))
+    (size,) = struct.unpack("<Q", file.read(8))
+    kind = element.get("type", "")
+    dtype = numpy.dtype("uint8" if kind == "String" else kind.lower())
+    array = numpy.empty(size // dtype.itemsize, dtype=dtype)
+    if array.size and file.readinto(array.view(numpy.uint8).data) != size:
+        raise ValueError(f"{file.name} is cut short")
+    if kind == "String":
+        return _texts(array)
+    components = int(element.get("NumberOfComponents") or 1)
+    return array.reshape(-1, components) if components > 1 else array
+
+
+def _texts(array: NDArray[Any]) -> List[str]:
+    """Of bytes with a 0 at the end of each text."""
+    return [text.decode(errors="replace") for text in array.tobytes().split(b"\0")[:-1]]
+
+
+def write(path: str, arrays: Arrays) -> None:
+    """Writes a .vtu file of one kind of cells; of triangles a .vtp file."""
+    corners = arrays.cells.shape[1]
+    count = len(arrays.cells)
+    is_surface = corners == 3
+    kind, cells = ("PolyData", "Polys") if is_surface else ("UnstructuredGrid", "Cells")
+    connectivity = {"connectivity": arrays.cells.reshape(-1),
+                    "offsets": numpy.arange(1, count + 1, dtype=numpy.int64) * corners}
+    if not is_surface:
+        connectivity["types"] = numpy.full(count, CELL_TYPE[corners], dtype=numpy.uint8)
+    writer = _Writer()
+    text = [f'<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64">', f"<{kind}>",
+            *writer.section("FieldData", arrays.field_data),
+            f'<Piece NumberOfPoints="{len(arrays.points)}" NumberOf{cells}="{count}">',
+            *writer.section("PointData", arrays.point_data), *writer.section("CellData", arrays.cell_data),
+            *writer.section("Points", {"Points": arrays.points}), *writer.section(cells, connectivity),
+            "</Piece>", f"</{kind}>", ""]
+    with open(path, "wb") as file:
+        file.write("\n".join(text).encode() + _APPENDED + b"_")
+        for array in writer.arrays:
+            file.write(struct.pack("<Q", array.nbytes))
+            file.write(array.reshape(-1).view(numpy.uint8).data)
+        file.write(b"</AppendedData></VTKFile>")
+
+
+class _Writer:
+    """Collects arrays and their places in the appended data."""
+
+    def __init__(self) -> None:
+        self.arrays: List[NDArray[Any]] = []
+        self.offset = 0
+
+    def section(self, tag: str, arrays: Mapping[str, Any]) -> List[str]:
+        active = f' Scalars="{ACTIVE}"' if ACTIVE in arrays else ""
+        elements = [self._element(tag, name, values) for name, values in arrays.items()]
+        return [f"<{tag}{active}>", *elements, f"</{tag}>"]
+
+    def _element(self, tag: str, name: str, values: Union[NDArray[Any], List[str]]) -> str:
+        if isinstance(values, list):
+            values = numpy.frombuffer("".join(text + "\0" for text in values).encode(), dtype=numpy.uint8)
+        array = numpy.ascontiguousarray(values)
+        array = array.astype(array.dtype.newbyteorder("<"), copy=False)
+        kind = array.dtype.name.replace("uint", "UInt").replace("int", "Int").replace("float", "Float")
+        ids = ' IdType="1"' if name in IDS else ""
+        tuples = f' NumberOfTuples="{len(array)}"' if tag == "FieldData" else ""
+        components = array.shape[1] if array.ndim > 1 else 1
+        element = (f'<DataArray type="{kind}"{ids} Name={quoteattr(name)} NumberOfComponents="{components}"{tuples} '
+                   f'format="appended" offset="{self.offset}"/>')
+        self.arrays.append(array)
+        self.offset += 8 + array.nbytes
+        return element

@@ -1,0 +1,294 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""--mesh: a mesh that is there is measured and written as one that was just made."""
+import json
+import re
+
+from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
+
+import images
+from program import ProgramTestCase, main
+
+
+class MeshTestCase(ProgramTestCase):
+    delta = 2
+
+    def setUp(self):
+        super().setUp()
+        self.input = images.write_nrrd(self.folder / "two.nrrd", images.two_labels(14, 5.0))
+
+    def make(self, *arguments):
+        return self.mesh("--input", self.input, "--delta", self.delta, "--threads", 1, "--output", "m.vtu", "--plc", "i.vtp",
+                         *arguments)
+
+    def run_program(self, *arguments):
+        done = self.call(*arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
+
+    def json(self, name):
+        return json.loads((self.folder / name).read_text())
+
+    def same_files(self, first, second):
+        self.assertEqual((self.folder / first).read_bytes(), (self.folder / second).read_bytes(), second)
+
+    def load(self, name, reader=vtkXMLUnstructuredGridReader):
+        reader = reader()
+        reader.SetFileName(str(self.folder / name))
+        reader.Update()
+        return reader.GetOutput()
+
+    def save(self, grid, name, **settings):
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetInputData(grid)
+        writer.SetFileName(str(self.folder / name))
+        for key, value in settings.items():
+            getattr(writer, "Set" + key)(value)
+        self.assertEqual(writer.Write(), 1)
+        return name
+
+
+class Tetrahedra(MeshTestCase):
+    def test_converts(self):
+        """As the program writes it at once."""
+        names = ("a.msh", "a.mesh", "a.mfem", "a.feb", "a.inp", "a.vtk", "a.vtu")
+        for name, surface in zip(names, ("a.stl", "a.ply", "a.vtk", "a.vtp", "", "", "")):
+            with self.subTest(name):
+                surfaces = [["--plc", prefix + surface] if surface else [] for prefix in ("s", "t")]
+                self.mesh("--input", self.input, "--delta", self.delta, "--threads", 1, "--output", name, *surfaces[0])
+                self.make()
+                told = self.run_program("--mesh", "m.vtu", "--interfaces", "i.vtp", "--output", "b" + name, *surfaces[1])
+                self.assertRegex(told, r"^\d+ tetrahedra, \d+ vertices\. Read in \d+\.\d+ s, written in \d+\.\d+ s\.\n$")
+                self.same_files(name, "b" + name)
+                if surface:
+                    self.same_files("s" + surface, "t" + surface)
+        self.run_program("--mesh", "m.vtu", "--interfaces", "i.vtp", "--plc", "j.vtu")
+        self.run_program("--mesh", "m.vtu", "--interfaces", "j.vtu", "--output", "c.msh")
+        self.same_files("a.msh", "c.msh")
+        self.run_program("--mesh", "m.vtu", "--output", "alone.msh")  # without surfaces
+        self.assertNotIn("label_7__label_3", (self.folder / "alone.msh").read_text())
+
+    def test_measures_against_the_image(self):
+        self.make()
+        made = self.call("--input", self.input, "--delta", self.delta, "--threads", 1, "--hausdorff", "--stats", "made.json")
+        told = self.run_program("--mesh", "m.vtu", "--input", self.input, "--hausdorff", "--stats", "given.json")
+        self.assertEqual(told[told.index("\nQuality:"):], made.stdout[made.stdout.index("\nQuality:"):])
+        made, given = self.json("made.json"), self.json("given.json")
+        self.assertEqual(list(given), ["elements", "vertices", "interface_facets", "faces_of_three_elements", "labels",
+                                       "quality", "topology", "image", "hausdorff"])  # those of voxplex.quality()
+        for key in ("elements", "vertices", "topology", "image", "hausdorff"):
+            self.assertEqual(given[key], made[key], key)
+
+    def test_measures_itself(self):
+        self.make()
+        told = self.run_program("--mesh", "m.vtu", "--quality", "--stats", "s.json", "--radius-edge", 1.2, "--facet-angle", 30)
+        self.assertRegex(told, r"vertices\. Radius-edge ratio at most [\d.]+, .* written in .* s\.\nQuality:\n")
+        self.assertNotIn("components lost", told)
+        figures = self.json("s.json")
+        self.assertNotIn("image", figures)
+        self.assertGreater(figures["quality"]["radius_edge_violations"], 0)
+        self.assertEqual(self.run_program("--mesh", "m.vtu", "--stats", "t.json").count("\n"), 1)
+        self.assertEqual(self.json("t.json")["quality"]["radius_edge_violations"], 0)
+
+    def test_options_of_measuring(self):
+        self.make("--labels", 3)
+        figures = []
+        for arguments in ((), ("--labels", 3), ("--spacing", "1,1,2"), ("--space", "ras")):
+            self.run_program("--mesh", "m.vtu", "--input", self.input, "--stats", "s.json", *arguments)
+            figures.append(self.json("s.json")["image"])
+        self.assertEqual([one["lost_labels"] for one in figures[:2]], [[7], []])
+        self.assertEqual(figures[2]["volume"], 2 * figures[0]["volume"])
+        self.assertGreater(len(figures[3]["lost_components"]), len(figures[0]["lost_components"]))
+
+    def test_refused_options(self):
+        self.make()
+        for option, value in (("--delta", 2), ("--elements", 100), ("--grading", "lfs"), ("--size", 2), ("--label-size", "3=1"),
+                              ("--interface-size", "3=1"), ("--size-image", "two.nrrd"), ("--isovalue", 1), ("--inside", "below"),
+                              ("--time-planes", 1), ("--memory-limit", "8G"), ("--no-optimise", None), ("--force", None),
+                              ("--reproducible", None), ("--min-component-volume", 1), ("--sliver-angle", 3)):
+            self.assert_refused(2, f"{option}: only for making a mesh, and --mesh gives one that is there; leave one",
+                                "--mesh", "m.vtu", "--input", self.input, option, *([] if value is None else [value]))
+        for option, value in (("--labels", 3), ("--spacing", "1,1,1"), ("--smoothing", 1), ("--label-table", "t.txt"),
+                              ("--space", "ras"), ("--hausdorff", None), ("--smallest-component", 3), ("--series", "1")):
+            self.assert_refused(2, f"{option}: only with an image beside the mesh; give it with --input",
+                                "--mesh", "m.vtu", option, *([] if value is None else [value]))
+        for pattern, arguments in (
+                ("--interfaces: .*give it with --mesh", ("--input", self.input, "--interfaces", "i.vtp")),
+                ("--plc: .*give it with --interfaces", ("--mesh", "m.vtu", "--plc", "x.stl")),
+                ("--time-scale: only for meshes of pentatopes", ("--mesh", "m.vtu", "--time-scale", 2)),
+                ("--frame-times: only for meshes of pentatopes", ("--mesh", "m.vtu", "--frame-times", "1,2")),
+                ("--slices: only for meshes of pentatopes", ("--mesh", "m.vtu", "--slices", "s_", "--slice-count", 2)),
+                ("--output: the format '.foo' is not known", ("--mesh", "m.vtu", "--output", "m.foo"))):
+            self.assert_refused(2, pattern, *arguments)
+        self.assert_refused(1, "cannot write 'm.vtu': it is the input", "--mesh", "m.vtu", "--output", "m.vtu")
+
+
+class Pentatopes(MeshTestCase):
+    def setUp(self):
+        super().setUp()
+        self.input = images.write_space_time_nrrd(self.folder / "moving.nrrd", images.moving_balls(3, 12, 3.0))
+        self.made = self.call("--input", self.input, "--delta", 2, "--threads", 1, "--time-scale", 4, "--time-planes", 1,
+                              "--output", "m.vtu", "--plc", "i.vtu", "--hausdorff", "--stats", "made.json", "--slices", "s_",
+                              "--slabs", "l_")
+        self.assertEqual(self.made.returncode, 0, self.made.stderr)
+        self.given = ("--mesh", "m.vtu", "--interfaces", "i.vtu")
+
+    def test_against_the_image(self):
+        told = self.run_program(*self.given, "--input", self.input, "--hausdorff", "--time-scale", 4, "--stats", "given.json",
+                                "--output", "n.vtu", "--plc", "n_i.vtu", "--slices", "t_", "--slabs", "k_")
+        self.assertEqual(told[told.index("\nQuality"):], self.made.stdout[self.made.stdout.index("\nQuality"):])
+        made, given = self.json("made.json"), self.json("given.json")
+        for key in ("elements", "vertices", "worst_elements", "image", "frames"):
+            self.assertEqual(given[key], made[key], key)
+        for first, second in (("m", "n"), ("i", "n_i"), ("s_0", "t_0"), ("s_2", "t_2"), ("l_0", "k_0"), ("l_1", "k_1")):
+            self.same_files(first + ".vtu", second + ".vtu")
+
+    def test_alone(self):
+        told = self.run_program(*self.given, "--quality", "--frame-times", "0.5", "--stats", "s.json", "--slices", "t_")
+        self.assertRegex(told, r"^\d+ pentatopes, .*normalized volume.*\nQuality of the cuts at 1 frames:\n")
+        self.assertEqual([frame["time"] for frame in self.json("s.json")["frames"]], [0.5])
+        self.assertTrue((self.folder / "t_0.vtu").exists())
+        told = self.run_program(*self.given, "--quality", "--slices", "t_", "--slice-count", 3, "--output", "n.mfem")
+        self.assertEqual(told.count("\n"), 1)
+        for slice_ in range(3):  # at the times of the frames
+            points = [memoryview(self.load("%s_%d.vtu" % (name, slice_)).GetPoints().GetData()).tobytes() for name in "st"]
+            self.assertEqual(*points)
+        self.assertIn("initial", (self.folder / "n.mfem").read_text())
+        self.run_program("--mesh", "m.vtu", "--facet-angle", 20, "--frame-times", "0.5,1", "--stats", "s.json")
+
+    def test_refusals(self):
+        two = images.write_nrrd(self.folder / "two.nrrd", images.two_labels(14, 5.0))
+        self.mesh("--input", two, "--delta", 3, "--output", "tets.vtu")
+        for status, pattern, arguments in (
+                (2, "'m.vtu' has pentatopes, but .*two.nrrd' has no time frames", (*self.given, "--input", two)),
+                (2, "moving.nrrd' has time frames, but 'tets.vtu' has no pent", ("--mesh", "tets.vtu", "--input", self.input)),
+                (1, "--slabs: the mesh in 'tets.vtu' has no time planes", ("--mesh", "tets.vtu", "--slabs", "x_")),
+                (2, "--slices: a mesh has no frames; give .*--slice-count, .*--frame-times", (*self.given, "--slices", "x_")),
+                (2, "--output: '.msh' does not hold", (*self.given, "--output", "x.msh")),
+                (2, "--frame-times: give the time of each frame", ("--input", self.input, "--frame-times", "1"))):
+            self.assert_refused(status, pattern, *arguments)
+
+
+class Files(MeshTestCase):
+    def setUp(self):
+        super().setUp()
+        self.make("--uncompressed")
+        self.whole = (self.folder / "m.vtu").read_bytes()
+
+    def refuse(self, pattern, name="x.vtu"):
+        self.assert_refused(1, "cannot read '%s': %s" % (name, pattern), "--mesh", name, "--output", "y.msh")
+
+    def refuse_bytes(self, pattern, data):
+        (self.folder / "x.vtu").write_bytes(data)
+        self.refuse(pattern)
+
+    def test_no_mesh(self):
+        self.refuse("there is no such file", "none.vtu")
+        self.refuse("it is not a .vtu file", "i.vtp")
+        self.refuse("it is not a .vtu file", ".")
+        (self.folder / "folder.vtu").mkdir()
+        self.refuse("it is not a regular file", "folder.vtu")
+        self.refuse_bytes("it holds PolyData, and not UnstructuredGrid", (self.folder / "i.vtp").read_bytes())
+        self.refuse_bytes("it is truncated or damaged: ", b"solid\n")
+        self.refuse_bytes("it is truncated or damaged: ", b"")
+        self.refuse_bytes("it is truncated or damaged: its appended data do not end", self.whole[:-40])
+        self.refuse_bytes("it is truncated or damaged: its appended data do not end", self.whole[:3000])
+        claim = re.sub(rb'NumberOfPoints="\d+" *', b'NumberOfPoints="99999999999" ', self.whole)
+        self.refuse_bytes("it is truncated or damaged: it claims .* points or cells", claim)
+
+    def test_wrong_content(self):
+        grid = self.load("m.vtu")
+        grid.GetCellData().RemoveArray("Label")
+        self.save(grid, "x.vtu")
+        self.refuse("its cells have no array 'Label' of 1 component")
+        self.mesh("--input", images.write_space_time_nrrd(self.folder / "v.nrrd", images.moving_balls(2, 10, 3.0)), "--delta", 3,
+                  "--output", "p.vtu", "--plc", "pi.vtu")
+        self.refuse("its cells have no array 'Label'", "pi.vtu")
+        grid = self.load("p.vtu")
+        grid.GetPointData().RemoveArray("Time")
+        self.save(grid, "x.vtu")
+        self.refuse("its points have no array 'Time' of 1 component")
+        self.refuse_bytes("its cells must be tetrahedra, or pentatopes .*, and cell 0 is none",
+                          self.change("types", bytes([12])))
+        self.refuse_bytes("its cells must be tetrahedra, .*and cell 1 is none", self.change("types", bytes([10, 12])))
+        self.refuse_bytes("it has cells with vertices that are none of its points", self.change("connectivity", b"\xff" * 8))
+        self.refuse_bytes("it has cells with vertices that are none of its points", self.change("connectivity", b"\xff\xff" + bytes(6)))
+        for pattern, mesh, interfaces in (
+                ("it is not a .vtp file", "m.vtu", "two.nrrd"),
+                ("interfaces of tetrahedra are triangles, and cell 0 is none", "m.vtu", "pi.vtu"), ("it is not a .vtu file", "p.vtu", "i.vtp"),
+                ("interfaces of pentatopes are tetrahedra, and cell 0 is none", "p.vtu", "p.vtu"),
+                ("its cells have no array 'Labels' of 2 components", "p.vtu", "m.vtu"),
+                ("the interfaces are not those of this mesh: their PointIds", "other.vtu", "i.vtp"),
+                ("there is no such file", "m.vtu", "none.vtp")):
+            with self.subTest(pattern):
+                if mesh == "other.vtu":
+                    self.mesh("--input", self.input, "--delta", 3, "--output", "other.vtu")
+                self.assert_refused(1, "cannot read '%s': %s" % (interfaces, pattern),
+                                    "--mesh", mesh, "--interfaces", interfaces, "--output", "y.vtu")
+
+    def change(self, name, data):
+        """Other numbers at the beginning of an array."""
+        offset = int(re.search(rb'Name="%s"[^>]*offset="(\d+)"' % name.encode(), self.whole)[1])
+        begin = self.whole.index(b"_", self.whole.index(b"<AppendedData")) + 1 + offset + 8
+        return self.whole[:begin] + data + self.whole[begin + len(data):]
+
+    def test_crash_of_the_library(self):
+        """VTK's reader writes beyond the end of an array of strings with more of them than it claims."""
+        grid = self.load("m.vtu")
+        strings = vtkStringArray()
+        strings.SetName("Texts")
+        for i in range(100000):
+            strings.InsertNextValue("a text that is long enough for memory of its own %d" % i)
+        grid.GetFieldData().AddArray(strings)
+        self.save(grid, "sound.vtu")
+        self.run_program("--mesh", "sound.vtu")
+        data = (self.folder / "sound.vtu").read_bytes()
+        self.refuse_bytes("its reading ended with a crash: it is damaged, or made to do harm",
+                          data.replace(b'NumberOfTuples="100000"', b'NumberOfTuples="1"'))
+
+    def test_encodings(self):
+        """All that VTK writes."""
+        grid = self.load("m.vtu")
+        expected = self.run_program("--mesh", "m.vtu", "--quality", "--stats", "s.json")
+        figures = self.json("s.json")
+        for mode, encoded, compressor, header in ((0, 0, 0, 0), (1, 0, 0, 0), (1, 0, 1, 1), (2, 1, 1, 0), (2, 1, 0, 1), (2, 0, 1, 0),
+                                                  (2, 0, 2, 1), (2, 0, 3, 0)):
+            with self.subTest(mode=mode, encoded=encoded, compressor=compressor, header=header):
+                self.save(grid, "x.VTU", DataMode=mode, EncodeAppendedData=encoded, CompressorType=compressor,
+                          HeaderType=(32, 64)[header])
+                told = self.run_program("--mesh", "x.VTU", "--quality", "--stats", "s.json")
+                self.assertEqual(told.split("\n")[1:], expected.split("\n")[1:])
+                self.assertEqual(self.json("s.json")["topology"], figures["topology"])
+
+
+class Uncompressed(MeshTestCase):
+    def test_bytes(self):
+        self.make("--uncompressed")
+        for name, reader in (("m.vtu", vtkXMLUnstructuredGridReader), ("i.vtp", vtkXMLPolyDataReader)):
+            raw, plain = (self.folder / name).read_bytes(), self.load(name, reader)
+            head = raw[:raw.index(b">")]
+            self.assertIn(b'header_type="UInt64"', head)
+            self.assertNotIn(b"compressor", head)
+            self.assertIn(b'<AppendedData encoding="raw">', raw)
+            self.assertNotIn(b'format="binary"', raw)
+            self.assertNotIn(b'format="ascii"', raw)
+            coordinates = memoryview(plain.GetPoints().GetData()).tobytes()
+            self.assertIn(len(coordinates).to_bytes(8, "little") + coordinates, raw)
+            self.assertEqual(isinstance(plain, vtkPolyData), name == "i.vtp")
+        self.make()
+        for name in ("m.vtu", "i.vtp"):
+            self.assertIn(b"vtkZLibDataCompressor", (self.folder / name).read_bytes()[:200])
+
+    def test_slices_and_slabs(self):
+        path = images.write_space_time_nrrd(self.folder / "moving.nrrd", images.moving_balls(3, 12, 3.0))
+        self.mesh("--input", path, "--delta", 2, "--time-scale", 4, "--time-planes", 1, "--slices", "s_", "--slabs", "l_",
+                  "--plc", "i.vtu", "--uncompressed")
+        for name in ("s_0.vtu", "l_1.vtu", "i.vtu"):
+            self.assertNotIn(b"compressor", (self.folder / name).read_bytes()[:200], name)
+
+
+if __name__ == "__main__":
+    main()
