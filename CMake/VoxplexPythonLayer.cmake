@@ -9,6 +9,7 @@ set(_voxplex_python_files
   images.py
   measuring.py
   meshes.py
+  pipeline.py
   program.py
   py.typed
   pyvista_accessor.py

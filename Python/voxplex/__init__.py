@@ -11,10 +11,9 @@
 tetrahedra, and a time series into one of pentatopes: NumPy arrays, which VTK, PyVista and meshio take as they are.
 :func:`quality` measures a mesh.
 
-Where Voxplex was built with VTK's Python wrapping, the VTK classes are here, too, for pipelines:
-`vtkImageToTetMeshFilter`, `vtkImageToPentatopeMeshFilter`, `vtkPentatopeMeshTimeSlice`, `vtkSimplexMeshQuality`,
-`vtkSegmentationReader` and `vtkSimplexMeshWriter`. They work together with those of `vtkmodules`;
-help(voxplex.vtkImageToTetMeshFilter) has the arrays, units and errors of each.
+For pipelines there are `vtkImageToTetMeshFilter` and `vtkImageToPentatopeMeshFilter`. Where Voxplex was built with
+VTK's Python wrapping, these are the C++ classes, and there are `vtkPentatopeMeshTimeSlice`, `vtkSimplexMeshQuality`,
+`vtkSegmentationReader` and `vtkSimplexMeshWriter`; in the wheel they are made for any VTK (:mod:`voxplex.pipeline`).
 
 `python3 -m voxplex` runs the command line.
 """
@@ -32,14 +31,14 @@ from .meshing import mesh
 __all__ = ["ArgumentError", "FileError", "Image", "Interfaces", "Mesh", "MeshingCancelled", "MeshingError",
            "MeshingWarning", "__version__", "mesh", "quality", "read_segmentation"]
 
-_WRAPPED = ("vtkVoxplex", "vtkVoxplexIO")  # modules
+_CLASSES = ("vtkVoxplex", "vtkVoxplexIO", "pipeline")  # modules; the first two are wrapped, and not in the wheel
 
 
 def __getattr__(name: str) -> Any:
     """The VTK classes. VTK is loaded with the first of them, not with the package."""
     if name.startswith("vtk"):
         import importlib
-        for module in _WRAPPED:
+        for module in _CLASSES:
             try:
                 found = importlib.import_module("." + module, __name__)
             except ModuleNotFoundError as missing:
@@ -48,6 +47,6 @@ def __getattr__(name: str) -> Any:
                 continue
             if hasattr(found, name):
                 return getattr(found, name)
-        raise AttributeError(f"there is no {name} in this package; it has the classes of VTK where it was built with VTK's "
+        raise AttributeError(f"there is no {name} in this package; it has all VTK classes where it was built with VTK's "
                              "Python wrapping, which the wheel was not")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

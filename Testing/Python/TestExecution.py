@@ -75,6 +75,11 @@ class Progress(unittest.TestCase):
 
 
 class Interruption(unittest.TestCase):
+    def setUp(self):
+        """Jobs in the background ignore Ctrl-C."""
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+
     def test_ctrl_c(self):
         before = signal.getsignal(signal.SIGINT)
         with self.assertRaises(KeyboardInterrupt):

@@ -75,9 +75,13 @@ class Package(unittest.TestCase):
     def test_examples_in_docstrings(self):
         attempted = 0
         for module in pkgutil.iter_modules([str(PACKAGE)], "voxplex."):
-            if module.name.split(".")[1] in (*WRAPPED, "__main__", "pyvista_accessor"):
+            if module.name.split(".")[1] in (*WRAPPED, "__main__"):
                 continue
-            result = doctest.testmod(importlib.import_module(module.name))
+            try:
+                result = doctest.testmod(importlib.import_module(module.name))
+            except ModuleNotFoundError as missing:  # not every library is there
+                self.assertIn(missing.name, ("vtkmodules", "pyvista"))
+                continue
             self.assertEqual(result.failed, 0, module.name)
             attempted += result.attempted
         self.assertGreater(attempted, 15)
