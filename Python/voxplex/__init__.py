@@ -42,6 +42,8 @@ def __getattr__(name: str) -> Any:
             try:
                 found = importlib.import_module("." + module, __name__)
             except ModuleNotFoundError as missing:
+                if missing.name == "vtkmodules":
+                    raise AttributeError(f"{name} needs VTK (pip install vtk)") from missing
                 if missing.name != f"{__name__}.{module}":
                     raise
                 continue

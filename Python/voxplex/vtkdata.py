@@ -110,10 +110,11 @@ def mesh_from_vtk(data: vtkPointSet) -> Arrays:
         cells = data.GetCells()
     else:
         raise TypeError(f"a mesh must be a vtkUnstructuredGrid or a vtkPolyData, not {type(data).__name__}")
-    if others or corners == 0 or cells.GetNumberOfCells() and cells.IsHomogeneous() != corners:
+    filled = cells.GetNumberOfCells() > 0
+    connectivity = vtk_to_numpy(cells.GetConnectivityArray()) if filled else numpy.empty(0, dtype=numpy.int64)
+    if (others or corners == 0 or filled and cells.IsHomogeneous() != corners
+            or connectivity.size != corners * cells.GetNumberOfCells()):
         raise ValueError("the cells are not all of one kind: triangles, tetrahedra or pentatopes (VTK_POLY_VERTEX of five points)")
-    connectivity = (vtk_to_numpy(cells.GetConnectivityArray()) if cells.GetNumberOfCells() else
-                    numpy.empty(0, dtype=numpy.int64))
     points = vtk_to_numpy(data.GetPoints().GetData()) if data.GetPoints() is not None else numpy.empty((0, 3))
     return Arrays(points, connectivity.reshape(-1, corners), _data(data.GetPointData()), _data(data.GetCellData()),
                   _fields(data.GetFieldData()))

@@ -119,7 +119,7 @@ def texts_of(data, name):
     """Those of an array in the field data: strings, or bytes with a 0 at the end of each text."""
     array = data.GetFieldData().GetAbstractArray(name)
     values = [array.GetValue(i) for i in range(array.GetNumberOfValues())] if array else []
-    if array and array.GetClassName() == "vtkUnsignedCharArray":
+    if array and not array.IsA("vtkStringArray"):
         *values, rest = bytes(values).decode().split("\0")
         assert rest == "", rest
     return values

@@ -279,7 +279,7 @@ class Meshes(unittest.TestCase):
             self.mesh.times
         with self.assertRaisesRegex(ValueError, "no cell array Label"):
             voxplex.Mesh.from_vtk(vtkUnstructuredGrid()).labels
-        with self.assertRaisesRegex(TypeError, "not vtkImageData"):
+        with self.assertRaisesRegex(TypeError, "not (vtk)?ImageData"):
             voxplex.Mesh.from_vtk(vtkImageData())
 
     def test_empty(self):
