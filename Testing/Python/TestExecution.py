@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Progress, cancelling, Ctrl-C and other threads of Python."""
 
+import multiprocessing
 import os
 import signal
 import subprocess
@@ -20,6 +21,11 @@ from phantoms import ball
 
 # Meshing these takes many seconds, so that what stops it comes in time on any machine.
 LARGE = dict(image=ball(64, (30.0, 12.0)), delta=0.3)
+
+
+def number_of_tetrahedra(delta):
+    """For other processes, which import this module."""
+    return len(voxplex.mesh(ball(), delta, threads=1).cells)
 
 
 def children():
@@ -199,6 +205,14 @@ class PythonThreads(unittest.TestCase):
         thread.join()
         self.assertTrue(all(len(mesh.cells) > 0 for mesh in results))
         self.assertEqual(len(results), 2)
+
+    def test_other_processes(self):
+        """Of multiprocessing, in the ways in which it makes them."""
+        for method in ("fork", "spawn", "forkserver"):
+            with self.subTest(method), multiprocessing.get_context(method).Pool(2) as pool:
+                counts = pool.map(number_of_tetrahedra, (2.0, 2.0, 3.0))
+                self.assertEqual(counts[0], counts[1])
+                self.assertGreater(counts[0], counts[2])
 
     def test_cancelled_in_another_thread(self):
         failures = []
