@@ -172,6 +172,16 @@ class Pentatopes(MeshTestCase):
             self.assert_refused(status, pattern, *arguments)
 
 
+class SavedImage(MeshTestCase):
+    def test_refusals(self):
+        for pattern, arguments in (("--save-image: images are saved as .nrrd", ("--save-image", "x.nii")),
+                                   ("--save-image: no mesh is made or read", ("--save-image", "x.nrrd", "--output", "x.vtu")),
+                                   ("--save-image: no mesh is made or read", ("--save-image", "x.nrrd", "--quality"))):
+            self.assert_refused(2, pattern, "--input", self.input, *arguments)
+        self.assert_refused(2, "--input is missing", "--save-image", "x.nrrd")
+        self.assert_refused(1, "it is the input", "--input", self.input, "--save-image", self.input)
+
+
 class Files(MeshTestCase):
     def setUp(self):
         super().setUp()
