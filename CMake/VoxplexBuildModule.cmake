@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # Builds VTK::Voxplex and VTK::VoxplexIO against an installed VTK: scans the vtk.module files and lets VTK
 # re-enter the root CMakeLists.txt, and enter IO/.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # Sets VOXPLEX_HAVE_IO: whether the module VTK::VoxplexIO, which reads and writes files, can be built,
 # and if not, says why. Sets VOXPLEX_GDCM_LIBRARIES and VOXPLEX_GDCM_INCLUDE_DIRECTORIES; leaves the targets of VTK's readers
 # and writers in the calling folder.

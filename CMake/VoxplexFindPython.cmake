@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # Sets VOXPLEX_HAVE_PYTHON: whether VTK's Python wrapping can be used, and if not, says why.
 
 set(VOXPLEX_HAVE_PYTHON OFF)

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # Optional libraries that know the hardware: hwloc (which processors are near each other) and PAPI
 # (the processors' counters). Sets VOXPLEX_HARDWARE_LIBRARIES, VOXPLEX_HARDWARE_INCLUDES and
 # VOXPLEX_HARDWARE_DEFINITIONS for the kernel. Files, not targets: an export of a static build would

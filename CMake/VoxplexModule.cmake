@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # Declares the module VTK::Voxplex. Read by the root CMakeLists.txt when VTK's build system enters it.
 #
 # The objects of the kernel and of the table of parameters go into the module's library: nothing of them is

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # What find_package(Voxplex) reads, in the build tree and in the install tree, and the version header.
 
 include(CMakePackageConfigHelpers)

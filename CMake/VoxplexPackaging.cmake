@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # Installed documentation, and the packages that CPack makes of what is installed: `cpack` in the build
 # folder leaves voxplex_<version>_<architecture>.deb, where dpkg is there, and a .tar.gz.
 #

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # The Python package `voxplex`: VTK's wrapping of the modules, and the layer of Python/voxplex.
 #
 # Build tree: PYTHONPATH=<build>/${VOXPLEX_PYTHON_DESTINATION}.

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # The part of the package `voxplex` that is written in Python, the same with the wrapped classes and in the wheel.
 
 set(_voxplex_python_files

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # The dependencies without which nothing can be built. Each one missing says how to get it.
 
 function (voxplex_require found what debian_package variable)

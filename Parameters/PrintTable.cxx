@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file PrintTable.cxx
- * @brief Prints the parameters of meshing, for what is made from them or compared with them: as JSON for scripts,
- * if the argument is "setters", as lines for Applications/FilterParameters.cxx, and if it is "python", as a module
- * with TABLE.
+ * @brief Prints the parameters of meshing, for what is made from them or compared with them: as JSON for scripts, or,
+ * if the argument is "setters", as lines for Applications/FilterParameters.cxx.
  */
 #include "MeshingParameters.h"
 
@@ -69,8 +68,7 @@ void PrintSetter(const MeshingParameter& p)
 
 int main(int argc, char* argv[])
 {
-  const std::string_view form = argc > 1 ? argv[1] : "";
-  if (form == "setters")
+  if (argc > 1 && argv[1] == std::string_view("setters"))
   {
     for (const MeshingParameter& parameter : MeshingParameters())
     {
@@ -82,11 +80,6 @@ int main(int argc, char* argv[])
   for (const MeshingParameter& parameter : MeshingParameters())
   {
     table.push_back(Describe(parameter));
-  }
-  if (form == "python")
-  {
-    std::cout << "import json\n\nTABLE = json.loads(r'''" << table.dump(1) << "''')\n";
-    return 0;
   }
   std::cout << table.dump(1) << '\n';
 }

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # Builds the examples as a project outside of this one and runs them: MeshBall against this build tree,
 # all of them against the install tree that Testing/Packaging makes.
 find_package(VTK QUIET OPTIONAL_COMPONENTS IOXML)

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 if (NOT VOXPLEX_HAVE_PYTHON)
   return ()
 endif ()

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs the build tree BUILD into PREFIX.moved: installed into PREFIX, and moved from there.
 #   cmake -DBUILD=... -DPREFIX=... -DCONFIG=... -P Install.cmake
 foreach (variable IN ITEMS BUILD PREFIX)

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # Makes the Debian package of the build tree BUILD in FOLDER and unpacks it into FOLDER/root.
 #   cmake -DBUILD=... -DFOLDER=... -DCPACK=... -DCONFIG=... -P Package.cmake
 foreach (variable IN ITEMS BUILD FOLDER CPACK)

@@ -4,6 +4,7 @@
 """The wheel in the environment of this interpreter: Scripts/build-wheel runs this, without Voxplex or VTK around."""
 
 import importlib.metadata
+import json
 import pathlib
 import re
 import struct
@@ -86,6 +87,25 @@ class Wheel(unittest.TestCase):
         self.assertLess(stand_in.stat().st_size, 30000)
         self.assertIn(b"JBIG's compression is not supported", stand_in.read_bytes())
         self.assertTrue(any(file.name == "LICENSE" for file in files))
+
+    def test_licences(self):
+        """Each library is in the list of components, and each component's licence is in the wheel."""
+        files = [pathlib.Path(file.locate()) for file in importlib.metadata.files("voxplex-mesh")]
+        (path,) = (file for file in files if file.name.endswith(".cdx.json"))
+        bill = json.loads(path.read_text())
+        ours, others = bill["metadata"]["component"], bill["components"]
+        listed = [part["name"] for component in (ours, *others) for part in component["components"]]
+        self.assertEqual(sorted(listed), sorted(file.name for file in files if ".libs" in file.parent.name))
+        licences = path.parent.parent / "licenses"
+        for component in others:
+            (licence,) = component["licenses"]
+            self.assertRegex(licence["expression"], r"^(?!GPL)\S")
+            text = (licences / component["name"] / "copyright").read_text(errors="replace")
+            self.assertRegex(text, "(?i)copyright", component["name"])
+        names = {component["name"] for component in others}
+        self.assertLess({"libcgal-dev", "liblzma5", "libvtk9.1", "nlohmann-json3-dev"}, names)
+        for name in "Apache-2.0", "GPL-3", "LGPL-2.1", "LGPL-3":
+            self.assertGreater((licences / "common-licenses" / name).stat().st_size, 5000)
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ from table import BY_PROPERTY, SOURCE, TABLE, default_of
 sys.path.append(str(SOURCE / "Parameters"))
 from write_documentation import page  # noqa: E402
 from write_paraview import write  # noqa: E402
+from write_slicer import module  # noqa: E402
 
 XML = SOURCE / "Plugins" / "ParaView" / "XML"
 # Of ParaView itself, or about its input.
@@ -88,6 +89,10 @@ class Documentation(unittest.TestCase):
         """If not: Parameters/write_documentation.py BUILD/Parameters/voxplexParameters > Documentation/Parameters.md"""
         self.assertEqual((SOURCE / "Documentation" / "Parameters.md").read_text(), page(TABLE))
 
+    def test_slicers_table_is_up_to_date(self):
+        """If not: Parameters/write_slicer.py says how it is written."""
+        path = SOURCE / "Plugins" / "Slicer" / "VoxplexMesher" / "VoxplexMesherLib" / "Table.py"
+        self.assertEqual(path.read_text(), module(TABLE))
 
     def test_defaults_in_the_reference(self):
         """Tables whose rows begin with an option and a number, or a word."""

@@ -1,4 +1,6 @@
 #!/bin/bash -eu
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # Builds all fuzzers into $OUT, each with the files that it starts from. OSS-Fuzz sets CC, CXX, CXXFLAGS and
 # LIB_FUZZING_ENGINE; the preset's own flags are the same sanitizers.
 cd "$SRC/voxplex"
