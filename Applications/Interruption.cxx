@@ -10,6 +10,9 @@
 #include <utility>
 
 #include <pthread.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <unistd.h>
 
 namespace voxplex::cli
@@ -124,6 +127,18 @@ void Interruption::Install()
   sigaction(SIGALRM, &action, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+}
+
+void Interruption::EndWithParent()
+{
+#ifdef __linux__
+  const pid_t parent = getppid();
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) // it ended meanwhile
+  {
+    raise(SIGTERM);
+  }
+#endif
 }
 
 bool Interruption::Requested()

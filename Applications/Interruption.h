@@ -26,6 +26,9 @@ public:
    * reports an error instead. */
   static void Install();
 
+  /** From now on the end of the process that started this one counts as SIGTERM, where the system can tell. */
+  static void EndWithParent();
+
   /** Whether a signal came. */
   static bool Requested();
 

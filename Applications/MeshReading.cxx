@@ -20,6 +20,8 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <new>
@@ -55,6 +57,14 @@ vtkSmartPointer<TData> Read(
 
 void CheckMesh(vtkUnstructuredGrid* mesh)
 {
+  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
+  {
+    std::array<double, 3> place{};
+    mesh->GetPoint(point, place.data());
+    io::RefuseIf(
+      !std::all_of(place.begin(), place.end(), [](double x) { return std::isfinite(x); }), "point ",
+      point, " has coordinates that are not finite");
+  }
   const bool isSpaceTime = HasPentatopes(mesh);
   io::CheckCells(mesh, isSpaceTime ? VTK_POLY_VERTEX : VTK_TETRA, isSpaceTime ? 5 : 4,
     isSpaceTime ? "its first cell is a pentatope (VTK_POLY_VERTEX of five points), so all must be"

@@ -263,7 +263,7 @@ MeshWithInterfaces ReadMesh(const Parameters& p, const MeshingInput& input)
   }
   if (!p.Slabs.empty() && !given.Mesh->GetFieldData()->HasArray("TimePlanes"))
   {
-    throw RunError("--slabs: the mesh in '" + p.Mesh + "' has no time planes");
+    throw RunError("--slabs: '" + p.Mesh + "' has no time planes");
   }
   return given;
 }
@@ -388,6 +388,10 @@ int Main(int argc, const char* const* argv)
   Interruption::Install();
   SilenceVTK();
   const UserInterface words = WordsOf(argc, argv);
+  if (words == UserInterface::Python) // the interpreter may be killed
+  {
+    Interruption::EndWithParent();
+  }
   try
   {
     const CommandLine commandLine = ParseCommandLine(argc, argv);

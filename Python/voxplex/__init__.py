@@ -7,7 +7,7 @@
     mesh = voxplex.mesh("knee.nrrd", delta=1.5, label_sizes={3: 1.0})
     mesh.write("knee.vtu")
 
-:func:`mesh` turns a segmented image (an array, a file, an image of VTK, PyVista, ITK or SimpleITK) into a :class:`Mesh` of
+:func:`mesh` turns a segmented image (an array, a file, an image of VTK, PyVista, ITK, SimpleITK or nibabel) into a :class:`Mesh` of
 tetrahedra, and a time series into one of pentatopes: NumPy arrays, which VTK, PyVista and meshio take as they are.
 :func:`quality` measures a mesh.
 
@@ -18,7 +18,7 @@ VTK's Python wrapping, these are the C++ classes, and there are `vtkPentatopeMes
 `python3 -m voxplex` runs the command line.
 """
 
-from typing import Any
+from typing import Any, List
 
 from .errors import ArgumentError, FileError, MeshingCancelled, MeshingError, MeshingWarning
 from .files import read_segmentation
@@ -32,6 +32,10 @@ __all__ = ["ArgumentError", "FileError", "Image", "Interfaces", "Mesh", "Meshing
            "MeshingWarning", "__version__", "mesh", "quality", "read_segmentation"]
 
 _CLASSES = ("vtkVoxplex", "vtkVoxplexIO", "pipeline")  # modules; the first two are wrapped, and not in the wheel
+
+
+def __dir__() -> List[str]:
+    return [*__all__, "vtkImageToPentatopeMeshFilter", "vtkImageToTetMeshFilter"]
 
 
 def __getattr__(name: str) -> Any:

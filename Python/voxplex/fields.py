@@ -8,6 +8,7 @@ background not listed. `SPACE` has the coordinate system, LPS or RAS.
 
 from __future__ import annotations
 
+import difflib
 from typing import Any, Dict, List, Mapping, Union
 
 import numpy
@@ -39,6 +40,9 @@ def set_names(fields: Fields, names: Mapping[int, str]) -> None:
 
     Raises ValueError for a value below 1, which no tissue has.
     """
+    for value in names:
+        if isinstance(value, str) or value != int(value):
+            raise TypeError(f"names: labels are whole numbers, not {value!r}")
     values = sorted(names)
     if values and values[0] < 1:
         raise ValueError(f"labels are whole numbers from 1 on, not {values[0]}")
@@ -64,5 +68,6 @@ def label_value(label: Label, names: Mapping[int, str]) -> int:
         return found[0]
     if found:
         raise ValueError(f"several labels are called {label!r}: {found}; give the value")
-    known = ", ".join(repr(name) for name in names.values()) or "the image has no label names"
-    raise ValueError(f"no label is called {label!r} ({known})")
+    near = difflib.get_close_matches(label, names.values(), 3, 0.0)
+    known = "there are " + ", ".join(map(repr, near)) + (" and others" if len(names) > 3 else "")
+    raise ValueError(f"no label is called {label!r} ({known if names else 'the image has no label names'})")

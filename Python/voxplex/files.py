@@ -4,10 +4,12 @@
 
 from __future__ import annotations
 
+import contextlib
+import copy
 import errno
 import os
 import tempfile
-from typing import TYPE_CHECKING, Any, List, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterator, List, Mapping, Optional, Tuple, Union
 
 import numpy
 from numpy.typing import ArrayLike
@@ -22,8 +24,8 @@ if TYPE_CHECKING:
 
 
 def read_segmentation(path: Path, *, space: Literal["LPS", "RAS"] = "LPS", series_uid: Optional[str] = None,
-                      label_table: Optional[Path] = None, spacing: Optional[Sequence[float]] = None,
-                      origin: Optional[Sequence[float]] = None, direction: Optional[ArrayLike] = None,
+                      label_table: Optional[Path] = None, spacing: Optional[ArrayLike] = None,
+                      origin: Optional[ArrayLike] = None, direction: Optional[ArrayLike] = None,
                       data_files_anywhere: bool = False) -> Image:
     """Reads a label image, or a time series of them, with its place in space and the names of its labels.
 
@@ -45,17 +47,17 @@ def read_segmentation(path: Path, *, space: Literal["LPS", "RAS"] = "LPS", serie
             options.append(f"--{option}={value}")
     if data_files_anywhere:
         options.append("--data-files-anywhere")
-    with tempfile.TemporaryDirectory(prefix="voxplex-") as folder:
-        copy = os.path.join(folder, "image.nrrd")
-        program.run(["--input=" + existing(path), *options, "--save-image=" + copy])
-        return read_nrrd(copy)
+    with temporary_folder() as folder:
+        image = os.path.join(folder, "image.nrrd")
+        program.run(["--input=" + existing(path), *options, "--save-image=" + image])
+        return read_nrrd(image)
 
 
 def existing(path: Path) -> str:
     """Raises FileNotFoundError where there is nothing."""
     if not os.path.exists(path):
-        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), os.fspath(path))
-    return os.fspath(path)
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), os.fsdecode(path))
+    return os.fsdecode(path)
 
 
 def number_text(value: Any) -> str:
@@ -75,6 +77,26 @@ def place_options(place: Mapping[str, Any]) -> List[str]:
     return [option for name, values in place.items() for option in number_list(name, numpy.reshape(values, -1))]
 
 
+@contextlib.contextmanager
+def temporary_folder() -> Iterator[str]:
+    """For files that only pass data. Raises FileError if there is no room for them."""
+    place = tempfile.gettempdir()
+    try:
+        with tempfile.TemporaryDirectory(prefix="voxplex-") as folder:
+            yield folder
+    except OSError as error:
+        if error.errno == errno.ENOSPC or isinstance(error, FileError) and "No space left" in str(error) and "voxplex-" in str(error):
+            raise FileError(f"the temporary folder {place} is full, which the image and the mesh pass through; choose "
+                            "another one with the environment variable TMPDIR") from error
+        raise
+
+
+def in_words(folder: str) -> List[Tuple[str, str]]:
+    """What messages call the files of images and meshes that are in memory."""
+    names = (("image.nrrd", "the image"), ("sizes.nrrd", "the image of sizes"), ("mesh.vtu", "the mesh"))
+    return [(quote + os.path.join(folder, file) + quote, name) for file, name in names for quote in ("'", "")]
+
+
 def mesh_file(mesh: Union[Mesh, Path, Any], folder: str) -> str:
     """The path of a mesh, which is written to the folder if it is in memory."""
     if isinstance(mesh, (str, os.PathLike)):
@@ -92,15 +114,18 @@ def write_mesh(mesh: Mesh, outputs: Mapping[str, Optional[Path]]) -> None:
     """Mesh.write(): a path for each of these options of the program."""
     if not any(path is not None for path in outputs.values()):
         raise TypeError("write() needs a path")
-    with tempfile.TemporaryDirectory(prefix="voxplex-") as folder:
+    with temporary_folder() as folder:
         arguments = ["--mesh=" + mesh_file(mesh, folder)]
-        if mesh.interfaces is not None:
-            extension = ".vtp" if mesh.interfaces.cells.shape[1] == 3 else ".vtu"
+        if mesh.has_interfaces:
+            surfaces = copy.copy(mesh.interfaces)
+            surfaces.points = mesh.points[surfaces.point_ids]  # they are the mesh's own points, wherever these are now
+            extension = ".vtp" if surfaces.cells.shape[1] == 3 else ".vtu"
             interfaces = os.path.join(folder, "interfaces" + extension)
-            xmlfiles.write(interfaces, mesh.interfaces)
+            xmlfiles.write(interfaces, surfaces)
             arguments.append("--interfaces=" + interfaces)
-        arguments += [f"--{option}={os.fspath(path)}" for option, path in outputs.items() if path is not None]
+        arguments += [f"--{option}={os.fsdecode(path)}" for option, path in outputs.items() if path is not None]
+        ours = [("plc: ", "interfaces: "), ("output: ", "path: "), ("with output", "with path"), ("with plc", "with interfaces")]
         try:
-            program.run(arguments, words=(("plc: ", "interfaces: "), ("output: ", "path: "), ("with output", "with path"), ("with plc", "with interfaces")))
+            program.run(arguments, words=ours + in_words(folder))
         except MeshingError as error:
             raise FileError(str(error)) from None

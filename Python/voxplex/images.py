@@ -51,11 +51,13 @@ class Image:
     Image of 32 x 32 x 20 voxels, uint8
     """
 
-    def __init__(self, voxels: ArrayLike, *, spacing: Sequence[float] = (1.0, 1.0, 1.0),
-                 origin: Sequence[float] = (0.0, 0.0, 0.0), direction: Optional[ArrayLike] = None,
-                 times: Optional[Sequence[float]] = None, names: Optional[Mapping[int, str]] = None,
+    def __init__(self, voxels: ArrayLike, *, spacing: ArrayLike = (1.0, 1.0, 1.0),
+                 origin: ArrayLike = (0.0, 0.0, 0.0), direction: Optional[ArrayLike] = None,
+                 times: Optional[ArrayLike] = None, names: Optional[Mapping[int, str]] = None,
                  space: Optional[str] = None) -> None:
         self.voxels, self.mask = _unmasked(voxels)
+        if self.voxels.size == 0:
+            raise ValueError(f"the array has the shape {self.voxels.shape}: there are no voxels")
         if self.voxels.ndim not in (3, 4):
             raise ValueError(f"the array has {self.voxels.ndim} dimensions, not 3 ([k, j, i]) or 4 ([t, k, j, i])")
         if self.voxels.dtype.kind not in "biuf":
@@ -101,15 +103,17 @@ class Image:
         return image_to_vtk(self)
 
     @staticmethod
-    def from_vtk(data: Any, times: Optional[Sequence[float]] = None) -> Image:
+    def from_vtk(data: Any, times: Optional[ArrayLike] = None) -> Image:
         """Of a vtkImageData, a list of them (a time series), or a VTK algorithm whose first output is the image.
 
         Several components are frames if there are times for them: they may as well be colours.
         """
+        if isinstance(data, (list, tuple)):
+            return _series(data, {}, times)
         from .vtkdata import image_from_vtk
         return image_from_vtk(data, times)
 
-    def _times(self, times: Optional[Sequence[float]]) -> List[float]:
+    def _times(self, times: Optional[ArrayLike]) -> List[float]:
         shape = self.voxels.shape
         if not self.is_series:
             if times is not None:
@@ -120,29 +124,62 @@ class Image:
                              "if it is indexed [t, k, j, i], pass times=")
         if len(self.voxels) < 2:
             raise ValueError("a time series needs two frames or more; pass a single image as it is")
-        result = [float(time) for time in (range(len(self.voxels)) if times is None else times)]
+        result = [float(time) for time in numpy.ravel(range(len(self.voxels)) if times is None else times)]
         if len(result) != len(self.voxels):
             raise ValueError(f"there are {len(self.voxels)} frames, and {len(result)} times")
         return result
 
 
-def image_of(image: Any, geometry: Mapping[str, Any], times: Optional[Sequence[float]]) -> Union[Image, str]:
+def image_of(image: Any, geometry: Mapping[str, Any], times: Optional[ArrayLike]) -> Union[Image, str]:
     """What mesh() takes for an image: an Image, or the path of a file."""
     if isinstance(image, (str, os.PathLike)):
-        return os.fspath(image)
-    if isinstance(image, numpy.ndarray):
-        return Image(image, times=times, **geometry)
-    if geometry:
+        return os.fsdecode(image)
+    kind = type(image).__module__.partition(".")[0]
+    has_place = isinstance(image, Image) or hasattr(image, "IsA") or kind in ("SimpleITK", "itk", "nibabel")
+    if geometry and has_place:
         raise ValueError(f"{', '.join(geometry)}: only for arrays and files; the image has its own")
     if isinstance(image, Image):
         return image if times is None else _at_times(image, times)
-    if hasattr(image, "GetLargestPossibleRegion") or type(image).__module__.startswith("SimpleITK"):
-        return _from_itk(image, times)
-    frames = image if isinstance(image, Sequence) and not isinstance(image, (bytes, bytearray)) else [image]
-    if frames and all(hasattr(frame, "IsA") for frame in frames):
+    if hasattr(image, "IsA"):
         return Image.from_vtk(image, times)
-    raise TypeError("image must be an array, a path, a voxplex.Image, an image of VTK, PyVista, ITK or SimpleITK, or a list "
-                    f"of vtkImageData (not empty), not {type(image).__name__}")
+    if kind in ("SimpleITK", "itk"):
+        return _from_itk(image, times)
+    if kind == "nibabel":
+        return _from_nibabel(image, times)
+    if hasattr(image, "__array__"):
+        return Image(_MASKED.asanyarray(image), times=times, **geometry)
+    if isinstance(image, (list, tuple)) and image and not isinstance(image[0], (int, float, list, tuple)):
+        return _series(image, geometry, times)
+    raise TypeError("image must be an array, a path, a voxplex.Image, an image of VTK, PyVista, ITK, SimpleITK or nibabel, or "
+                    f"a list of these (not empty), not {type(image).__name__}")
+
+
+def _series(frames: Sequence[Any], geometry: Mapping[str, Any], times: Optional[ArrayLike]) -> Image:
+    """A time series of single images, which must lie at the same place."""
+    from .files import read_segmentation
+    images: List[Image] = []
+    for frame in frames:
+        image = image_of(frame, geometry, None)
+        images.append(image if isinstance(image, Image) else read_segmentation(image, **geometry))
+    first = images[0]
+    for number, image in enumerate(images):
+        if image.is_series:
+            raise ValueError(f"frame {number} is a time series itself")
+        if image.voxels.shape != first.voxels.shape:
+            raise ValueError(f"the frames have different shapes: {first.voxels.shape} and {image.voxels.shape}")
+        if (image.spacing, image.origin, image.space) != (first.spacing, first.origin, first.space) or \
+                not numpy.array_equal(image.direction, first.direction):
+            raise ValueError(f"frame {number} does not lie where frame 0 lies: spacing, origin, direction or space differ")
+    if times is None and hasattr(frames[0], "IsA"):
+        from .vtkdata import frame_times
+        times = frame_times(frames)
+    masks = [image.mask for image in images]
+    result = Image(numpy.stack([image.voxels for image in images]), spacing=first.spacing, origin=first.origin,
+                   direction=first.direction, times=range(len(images)) if times is None else times)
+    if any(mask is not None for mask in masks):
+        result.mask = numpy.stack([numpy.zeros(first.voxels.shape, bool) if mask is None else mask for mask in masks])
+    result.field_data = first.field_data
+    return result
 
 
 def write_nrrd(image: Image, path: str, hidden_is_outside: bool) -> None:
@@ -194,7 +231,7 @@ def _point(text: str) -> List[float]:
     return [float(number) for number in text.strip("()").split(",")]
 
 
-def place_of(spacing: Optional[Sequence[float]], origin: Optional[Sequence[float]],
+def place_of(spacing: Optional[ArrayLike], origin: Optional[ArrayLike],
              direction: Optional[ArrayLike]) -> Dict[str, Any]:
     """What is given of the place of an image."""
     values: Dict[str, Any] = {}
@@ -258,24 +295,58 @@ def _stored(voxels: NDArray[Any]) -> NDArray[Any]:
     return voxels.astype(voxels.dtype.newbyteorder("<"), copy=False)
 
 
-def _at_times(image: Image, times: Sequence[float]) -> Image:
+def _at_times(image: Image, times: ArrayLike) -> Image:
     result = Image(image.voxels, spacing=image.spacing, origin=image.origin, direction=image.direction, times=times)
     result.mask, result.field_data = image.mask, image.field_data
     return result
 
 
-def _from_itk(image: Any, times: Optional[Sequence[float]]) -> Image:
+def from_components(voxels: NDArray[Any], mask: Optional[NDArray[numpy.bool_]], times: Optional[ArrayLike],
+                    place: Mapping[str, Any]) -> Image:
+    """Of an array indexed [k, j, i] or, of several components, [k, j, i, component]: frames, if there are times."""
+    if voxels.ndim == 4:
+        if times is None:
+            raise ValueError(f"the image has {voxels.shape[3]} components in each voxel: if they are time frames, pass "
+                             "their times (times=[0, 1, ...]); of colours or vectors, extract one component, or make "
+                             "labels of them")
+        voxels = numpy.moveaxis(voxels, -1, 0)
+        mask = None if mask is None else numpy.broadcast_to(mask, voxels.shape)
+    image = Image(voxels, times=times, **place)
+    image.mask = mask
+    return image
+
+
+def _from_itk(image: Any, times: Optional[ArrayLike]) -> Image:
     """Of ITK or SimpleITK. The fourth axis of an image of four dimensions is time."""
-    dimension = image.GetDimension() if hasattr(image, "GetDimension") else image.GetImageDimension()
     if type(image).__module__.startswith("SimpleITK"):
         import SimpleITK
+        dimension = image.GetDimension()
+        components = image.GetNumberOfComponentsPerPixel()
         voxels = SimpleITK.GetArrayViewFromImage(image)
         direction = numpy.reshape(image.GetDirection(), (dimension, dimension))
     else:
         import itk
+        dimension = image.GetImageDimension()
+        components = image.GetNumberOfComponentsPerPixel()
         voxels = itk.array_view_from_image(image)
         direction = itk.array_from_matrix(image.GetDirection())
+    if dimension not in (3, 4) or dimension == 4 and components > 1:
+        raise ValueError(f"the image has {dimension} dimensions and {components} components in each voxel; images of three "
+                         "dimensions are meshed, and of four with one component")
     spacing, origin = list(image.GetSpacing()), list(image.GetOrigin())
-    if dimension == 4 and times is None:
-        times = [origin[3] + frame * spacing[3] for frame in range(voxels.shape[0])]
-    return Image(voxels, spacing=spacing[:3], origin=origin[:3], direction=direction[:3, :3], times=times, space="LPS")
+    place: Dict[str, Any] = {"spacing": spacing[:3], "origin": origin[:3], "direction": direction[:3, :3], "space": "LPS"}
+    if dimension == 4:
+        return Image(voxels, times=times if times is not None else
+                     [origin[3] + frame * spacing[3] for frame in range(voxels.shape[0])], **place)
+    return from_components(voxels, None, times, place)
+
+
+def _from_nibabel(image: Any, times: Optional[ArrayLike]) -> Image:
+    """Of nibabel, whose arrays are indexed [i, j, k], and whose affine is in RAS."""
+    voxels = numpy.asanyarray(image.dataobj).T
+    affine = numpy.diag((-1.0, -1.0, 1.0, 1.0)) @ image.affine
+    spacing = numpy.linalg.norm(affine[:3, :3], axis=0)
+    if times is None and voxels.ndim == 4:
+        step = float(image.header.get_zooms()[3]) or 1.0
+        times = [step * frame for frame in range(len(voxels))]
+    return Image(voxels, spacing=spacing, origin=affine[:3, 3], direction=affine[:3, :3] / spacing, times=times, space="LPS")

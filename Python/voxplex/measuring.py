@@ -6,17 +6,17 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
-from typing import Any, Dict, Iterable, Optional, Sequence, Union
+from typing import Any, Dict, Iterable, Optional, Union
 
+import numpy
 from numpy.typing import ArrayLike
 
 from . import program
 from .fields import Label
-from .files import mesh_file, number_list
+from .files import in_words, mesh_file, number_list, temporary_folder
 from .images import Image, Path, image_of, place_of
 from .meshes import Mesh
-from .meshing import in_words, input_of, labels_of
+from .meshing import input_of, labels_of
 from .program import Progress
 
 
@@ -24,8 +24,8 @@ def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
             labels: Optional[Iterable[Label]] = None,
             hausdorff: bool = True, smoothing: Optional[float] = None, radius_edge: Optional[float] = None,
             facet_angle: Optional[float] = None, smallest_component: Optional[int] = None,
-            spacing: Optional[Sequence[float]] = None, origin: Optional[Sequence[float]] = None,
-            direction: Optional[ArrayLike] = None, times: Optional[Sequence[float]] = None,
+            spacing: Optional[ArrayLike] = None, origin: Optional[ArrayLike] = None,
+            direction: Optional[ArrayLike] = None, times: Optional[ArrayLike] = None,
             time_scale: Optional[float] = None, threads: int = 0,
             progress: Optional[Progress] = None) -> Dict[str, Any]:
     """Measures a mesh of labelled tetrahedra or pentatopes, made by Voxplex or another program.
@@ -92,7 +92,10 @@ def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
     geometry = place_of(spacing, origin, direction)
     if source is None and (labels is not None or geometry):
         raise ValueError(f"{', '.join(geometry) or 'labels'}: only with an image")
-    with tempfile.TemporaryDirectory(prefix="voxplex-") as folder:
+    space = _space_of(mesh)
+    if isinstance(source, Image) and None not in (space, source.space) and space != source.space:
+        raise ValueError(f"the mesh is in {space} coordinates, the image in {source.space}")
+    with temporary_folder() as folder:
         report = os.path.join(folder, "quality.json")
         arguments = ["--mesh=" + mesh_file(mesh, folder), "--stats=" + report,
                      "--hausdorff" if hausdorff and source is not None else "--quality", f"--threads={int(threads)}"]
@@ -104,9 +107,21 @@ def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
             arguments += labels_of(labels, source.names if isinstance(source, Image) else None)
         if source is not None:
             arguments += input_of(source, folder, False, geometry, times)
+            if isinstance(source, str) and space is not None:
+                arguments.append("--space=" + space.lower())
         elif times is not None:
-            arguments += number_list("frame-times", times)
+            arguments += number_list("frame-times", numpy.ravel(times))
         program.run(arguments, progress, in_words(folder))
         with open(report, encoding="utf-8") as file:
             figures: Dict[str, Any] = json.load(file)
     return figures
+
+
+def _space_of(mesh: Any) -> Optional[str]:
+    """LPS or RAS, where a mesh in memory says it."""
+    if isinstance(mesh, (str, os.PathLike)):
+        return None
+    fields = (mesh if isinstance(mesh, Mesh) else Mesh.from_vtk(mesh)).field_data if hasattr(mesh, "GetCellData") or isinstance(
+        mesh, Mesh) else {}
+    found = fields.get("SPACE")
+    return str(found[0]) if found is not None and len(found) else None

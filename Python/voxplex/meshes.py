@@ -4,18 +4,20 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Optional
+from typing import Any, Dict, Mapping, Optional, Tuple
 
 import numpy
 from numpy.typing import NDArray
 
-from .fields import names_in
+from .fields import names_in, set_names
 from .images import Path
 from .xmlfiles import Arrays
 
 
 class _Simplices(Arrays):
     """Points, cells and data; `field_data` has the names of labels and other things that are of no point or cell."""
+
+    _corners: Tuple[int, ...] = ()
 
     def to_vtk(self) -> Any:
         """A vtkUnstructuredGrid, of triangles a vtkPolyData, which shares the arrays' memory.
@@ -41,18 +43,25 @@ class _Simplices(Arrays):
     def from_vtk(cls, data: Any) -> Any:
         """Of a vtkUnstructuredGrid or a vtkPolyData, sharing its memory: writing into the arrays changes it.
 
-        Raises ValueError if the cells are not all of one kind.
+        Raises ValueError if the cells are not all of one kind, or not of this one.
         """
         from .vtkdata import mesh_from_vtk
         arrays = mesh_from_vtk(data)
+        if arrays.cells.shape[1] not in cls._corners:
+            raise ValueError(f"the cells have {arrays.cells.shape[1]} corners, those of a voxplex.{cls.__name__} "
+                             + " or ".join(map(str, cls._corners)))
         result = cls.__new__(cls)
         result.__dict__.update(arrays.__dict__)
         return result
 
     @property
     def label_names(self) -> Dict[int, str]:
-        """The names of labels, by value, where the image had names."""
+        """The names of labels, by value, where the image had names. Assign to it to change them."""
         return names_in(self.field_data)
+
+    @label_names.setter
+    def label_names(self, names: Mapping[int, str]) -> None:
+        set_names(self.field_data, names)
 
     @property
     def times(self) -> NDArray[numpy.float64]:
@@ -71,6 +80,8 @@ class Interfaces(_Simplices):
     points: shape (number of points, 3), float64.
     cells: the points of each triangle or tetrahedron, shape (number of cells, 3 or 4).
     """
+
+    _corners = (3, 4)
 
     def __repr__(self) -> str:
         return f"{len(self.cells)} {'triangles' if self.cells.shape[1] == 3 else 'tetrahedra'} of interfaces"
@@ -92,15 +103,31 @@ class Mesh(_Simplices):
     points: shape (number of points, 3), float64.
     cells: the points of each element, shape (number of elements, 4 or 5), in VTK's order: volumes are positive.
     point_data, cell_data, field_data: further arrays, by name.
-    interfaces: what bounds and separates the tissues; None if it is not known (from_vtk).
     statistics: what `voxplex --stats` writes, without what is about files.
     """
 
-    interfaces: Optional[Interfaces] = None
+    _interfaces: Optional[Interfaces] = None
     statistics: Dict[str, Any] = {}
+    _corners = (4, 5)
 
     def __repr__(self) -> str:
         return f"Mesh of {len(self.cells)} {'tetrahedra' if self.cells.shape[1] == 4 else 'pentatopes'}"
+
+    @property
+    def has_interfaces(self) -> bool:
+        """Whether they are known."""
+        return self._interfaces is not None
+
+    @property
+    def interfaces(self) -> Interfaces:
+        """What bounds and separates the tissues. Raises ValueError if it is not known (from_vtk)."""
+        if self._interfaces is None:
+            raise ValueError("the interfaces of this mesh are not known")
+        return self._interfaces
+
+    @interfaces.setter
+    def interfaces(self, interfaces: Optional[Interfaces]) -> None:
+        self._interfaces = interfaces
 
     @property
     def labels(self) -> NDArray[Any]:

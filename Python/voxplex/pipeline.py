@@ -37,9 +37,9 @@ class _Mesher(VTKPythonAlgorithmBase):
         """The image, of whatever kind VTK has."""
         self.SetInputDataObject(0, data)
 
-    def GetOutput(self) -> Any:
-        """Output 0, the mesh."""
-        return self.GetOutputDataObject(0)
+    def GetOutput(self, port: int = 0) -> Any:
+        """The mesh, or its interfaces."""
+        return self.GetOutputDataObject(port)
 
     def Update(self, *port: int) -> None:
         """Executes what is not up to date. Raises what voxplex.mesh() raises."""
@@ -115,7 +115,7 @@ class _Mesher(VTKPythonAlgorithmBase):
         self._statistics = result.statistics
         vtkUnstructuredGrid.GetData(outputs, 0).ShallowCopy(result.to_vtk())
         kind = vtkPolyData if self.dimension == 3 else vtkUnstructuredGrid
-        kind.GetData(outputs, 1).ShallowCopy(result.interfaces.to_vtk() if result.interfaces else kind())
+        kind.GetData(outputs, 1).ShallowCopy(result.interfaces.to_vtk())
         return 1
 
     def _on_progress(self, fraction: float) -> bool:

@@ -45,6 +45,8 @@ def run(arguments: List[str], progress: Optional[Progress] = None,
     Raises MeshingError, ArgumentError or FileError with the program's message, MeshingCancelled, and what the callback
     raises. Its warnings are issued as MeshingWarning, at the first caller outside of this package.
     """
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function, not {type(progress).__name__}")
     command = [path(), *arguments, "--messages=python", *(["--progress"] if progress else [])]
     process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     assert process.stderr is not None

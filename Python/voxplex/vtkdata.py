@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any, List, Optional, Sequence, Tuple
 
 import numpy
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import (
@@ -17,8 +17,8 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
 from .fields import Fields
-from .images import Image
-from .xmlfiles import ACTIVE, CELL_TYPE, CORNERS, IDS, Arrays
+from .images import Image, from_components
+from .xmlfiles import ACTIVE, CELL_TYPE, CORNERS, IDS, Arrays, check, native
 
 _GHOSTS = "vtkGhostType"
 _TEXTS = ("LabelNames", "SurfaceNames", "SPACE")
@@ -36,45 +36,41 @@ def image_to_vtk(image: Image) -> Any:
     return frames
 
 
-def image_from_vtk(data: Any, times: Optional[Sequence[float]]) -> Image:
-    """Of a vtkImageData, a list of them, or an algorithm."""
-    frames, dated = _frames(data)
-    if times is None and len(frames) > 1:
-        times = dated
-    for frame in frames:
-        if not isinstance(frame, vtkImageData):
-            raise TypeError(f"image must be a vtkImageData, not {type(frame).__name__}")
-    voxels = [_voxels(frame) for frame in frames]
-    components = voxels[0].shape[3] if voxels[0].ndim == 4 else 1
-    if components > 1 and times is None:
-        raise ValueError(f"the image has {components} components in each voxel: if they are time frames, pass "
-                         "their times (times=[0, 1, ...]); of colours or vectors, extract one component "
-                         "(vtkImageExtractComponents), or make labels of them")
-    masks = [_mask(frame, own) for frame, own in zip(frames, voxels)]
-    if components > 1:
-        stack = numpy.moveaxis(voxels[0], -1, 0)
-        mask = None if masks[0] is None else numpy.broadcast_to(masks[0], stack.shape)
-    elif isinstance(data, vtkImageData) or len(frames) == 1 and isinstance(data, vtkAlgorithm):
-        stack, mask = voxels[0], masks[0]
-    else:
-        if len({own.shape for own in voxels}) > 1:
-            raise ValueError(f"the frames have different shapes: {sorted({own.shape for own in voxels})}")
-        stack = numpy.stack(voxels)
-        hidden = [numpy.zeros(own.shape, bool) if one is None else one for own, one in zip(voxels, masks)]
-        mask = numpy.stack(hidden) if any(one is not None for one in masks) else None
-    spacing, origin, direction = _place(frames[0])
-    image = Image(stack, spacing=spacing, origin=origin, direction=direction, times=times)
-    image.mask = mask
-    image.field_data = _fields(frames[0].GetFieldData())
+def image_from_vtk(data: Any, times: Optional[ArrayLike]) -> Image:
+    """Of a vtkImageData or an algorithm."""
+    if isinstance(data, vtkAlgorithm):
+        data, steps = _outputs(data)
+        if len(data) > 1:
+            return Image.from_vtk(data, steps if times is None else times)
+        data = data[0]
+    if not isinstance(data, vtkImageData):
+        raise TypeError(f"image must be a vtkImageData, not {type(data).__name__}")
+    voxels = _voxels(data)
+    spacing, origin, direction = _place(data)
+    image = from_components(voxels, _mask(data, voxels), times,
+                            {"spacing": spacing, "origin": origin, "direction": direction})
+    image.field_data = _fields(data.GetFieldData())
     return image
+
+
+def frame_times(frames: Sequence[Any]) -> Optional[List[float]]:
+    """The times that frames carry, if they do. Raises ValueError if only some do."""
+    key = vtkDataObject.DATA_TIME_STEP()
+    dated = [frame.GetInformation().Has(key) == 1 for frame in frames]
+    if all(dated):
+        return [frame.GetInformation().Get(key) for frame in frames]
+    if any(dated):
+        raise ValueError(f"frame {dated.index(False)} has no time, but others have; pass times=")
+    return None
 
 
 def mesh_to_vtk(arrays: Arrays) -> Any:
     """A vtkUnstructuredGrid, of triangles a vtkPolyData, that shares the arrays' memory."""
+    check(arrays)
     corners = arrays.cells.shape[1]
     cells = vtkCellArray()
     if len(arrays.cells):
-        connectivity = arrays.cells.reshape(-1)
+        connectivity = native("cells", arrays.cells).reshape(-1)
         cells.SetData(corners, _share(connectivity, ids=True))
         _keep(connectivity, cells.GetConnectivityArray())  # VTK may have another array with the same memory
     if corners == 3:
@@ -86,7 +82,7 @@ def mesh_to_vtk(arrays: Arrays) -> Any:
     points = vtkPoints()
     points.SetDataTypeToDouble()
     if len(arrays.points):
-        points.SetData(_share(arrays.points))
+        points.SetData(_share(native("points", arrays.points)))
     result.SetPoints(points)
     for target, data in ((result.GetPointData(), arrays.point_data), (result.GetCellData(), arrays.cell_data)):
         for name, values in data.items():
@@ -118,20 +114,6 @@ def mesh_from_vtk(data: vtkPointSet) -> Arrays:
     points = vtk_to_numpy(data.GetPoints().GetData()) if data.GetPoints() is not None else numpy.empty((0, 3))
     return Arrays(points, connectivity.reshape(-1, corners), _data(data.GetPointData()), _data(data.GetCellData()),
                   _fields(data.GetFieldData()))
-
-
-def _frames(data: Any) -> Tuple[List[Any], Optional[List[float]]]:
-    """The frames of an image, and the times that they carry."""
-    if isinstance(data, vtkAlgorithm):
-        return _outputs(data)
-    frames = [data] if isinstance(data, vtkImageData) else list(data)
-    key = vtkDataObject.DATA_TIME_STEP()
-    dated = [frame.GetInformation().Has(key) == 1 for frame in frames]
-    if all(dated):
-        return frames, [frame.GetInformation().Get(key) for frame in frames]
-    if any(dated):
-        raise ValueError(f"frame {dated.index(False)} has no time, but others have; pass times=")
-    return frames, None
 
 
 def _outputs(algorithm: vtkAlgorithm) -> Tuple[List[Any], Optional[List[float]]]:
@@ -204,7 +186,7 @@ def _frame_to_vtk(image: Image, voxels: NDArray[Any], mask: Optional[NDArray[num
 
 
 def _named(name: str, values: NDArray[Any]) -> vtkDataArray:
-    array = _share(numpy.ascontiguousarray(values), name in IDS)
+    array = _share(native(name, values), name in IDS)
     array.SetName(name)
     return array
 

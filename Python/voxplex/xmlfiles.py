@@ -36,6 +36,31 @@ class Arrays:
         self.field_data = field_data
 
 
+def check(arrays: Arrays) -> None:
+    """Raises ValueError for arrays that do not fit each other."""
+    points, cells = numpy.asarray(arrays.points), numpy.asarray(arrays.cells)
+    if points.ndim != 2 or points.shape[1] != 3 or cells.ndim != 2 or cells.shape[1] not in CELL_TYPE:
+        raise ValueError(f"points have the shape {points.shape}, not (number, 3), or cells {cells.shape}, not (number, 3, 4 or 5)")
+    if cells.dtype.kind not in "iu" or len(cells) and not 0 <= cells.min() <= cells.max() < len(points):
+        raise ValueError(f"cells must be numbers of points, from 0 to {len(points) - 1}")
+    for what, data, count in (("point_data", arrays.point_data, len(points)), ("cell_data", arrays.cell_data, len(cells))):
+        for name, values in data.items():
+            if len(values) != count:
+                raise ValueError(f"{what}[{name!r}] has {len(values)} rows, not {count}")
+
+
+def native(name: str, values: Any) -> NDArray[Any]:
+    """In memory as VTK has it."""
+    array = numpy.ascontiguousarray(values)
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"the array {name!r} has elements of type {array.dtype}, which are not numbers")
+    if array.dtype.kind == "b":
+        return array.view(numpy.uint8)
+    if array.dtype.kind == "f" and array.dtype.itemsize not in (4, 8):
+        return array.astype(numpy.float32 if array.dtype.itemsize < 4 else numpy.float64)
+    return array.astype(array.dtype.newbyteorder("="), copy=False)
+
+
 def read(path: str) -> Arrays:
     """Reads a .vtu file of one kind of cells that the program wrote with --uncompressed."""
     with open(path, "rb") as file:
@@ -87,11 +112,12 @@ def _texts(array: NDArray[Any]) -> List[str]:
 
 def write(path: str, arrays: Arrays) -> None:
     """Writes a .vtu file of one kind of cells; of triangles a .vtp file."""
+    check(arrays)
     corners = arrays.cells.shape[1]
     count = len(arrays.cells)
     is_surface = corners == 3
     kind, cells = ("PolyData", "Polys") if is_surface else ("UnstructuredGrid", "Cells")
-    connectivity = {"connectivity": arrays.cells.reshape(-1),
+    connectivity = {"connectivity": numpy.reshape(arrays.cells, -1),
                     "offsets": numpy.arange(1, count + 1, dtype=numpy.int64) * corners}
     if not is_surface:
         connectivity["types"] = numpy.full(count, CELL_TYPE[corners], dtype=numpy.uint8)
@@ -125,7 +151,7 @@ class _Writer:
     def _element(self, tag: str, name: str, values: Union[NDArray[Any], List[str]]) -> str:
         if isinstance(values, list):
             values = numpy.frombuffer("".join(text + "\0" for text in values).encode(), dtype=numpy.uint8)
-        array = numpy.ascontiguousarray(values)
+        array = native(name, values)
         array = array.astype(array.dtype.newbyteorder("<"), copy=False)
         kind = array.dtype.name.replace("uint", "UInt").replace("int", "Int").replace("float", "Float")
         ids = ' IdType="1"' if name in IDS else ""

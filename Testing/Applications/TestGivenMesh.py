@@ -165,7 +165,7 @@ class Pentatopes(MeshTestCase):
         for status, pattern, arguments in (
                 (2, "'m.vtu' has pentatopes, but .*two.nrrd' has no time frames", (*self.given, "--input", two)),
                 (2, "moving.nrrd' has time frames, but 'tets.vtu' has no pent", ("--mesh", "tets.vtu", "--input", self.input)),
-                (1, "--slabs: the mesh in 'tets.vtu' has no time planes", ("--mesh", "tets.vtu", "--slabs", "x_")),
+                (1, "--slabs: 'tets.vtu' has no time planes", ("--mesh", "tets.vtu", "--slabs", "x_")),
                 (2, "--slices: a mesh has no frames; give .*--slice-count, .*--frame-times", (*self.given, "--slices", "x_")),
                 (2, "--output: '.msh' does not hold", (*self.given, "--output", "x.msh")),
                 (2, "--frame-times: give the time of each frame", ("--input", self.input, "--frame-times", "1"))):

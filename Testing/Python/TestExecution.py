@@ -11,8 +11,10 @@ import sys
 import tempfile
 import textwrap
 import threading
+import time
 import unittest
 import unittest.mock
+from pathlib import Path
 
 import numpy
 
@@ -28,10 +30,10 @@ def number_of_tetrahedra(delta):
     return len(voxplex.mesh(ball(), delta, threads=1).cells)
 
 
-def children():
-    """The processes that this one has started."""
-    return [int(pid) for task in os.listdir("/proc/self/task")
-            for pid in open(f"/proc/self/task/{task}/children", encoding="ascii").read().split()]
+def children(process="self"):
+    """The processes that this one, or another one, has started."""
+    return [int(pid) for task in os.listdir(f"/proc/{process}/task")
+            for pid in Path(f"/proc/{process}/task/{task}/children").read_text(encoding="ascii").split()]
 
 
 def interrupt():
@@ -126,6 +128,22 @@ class Interruption(unittest.TestCase):
                 voxplex.mesh(**LARGE, progress=progress)
         self.assertEqual(len(started), 1)
         self.assertEqual((children(), os.listdir(folder.name)), ([], []))
+
+    def test_interpreter_is_killed(self):
+        """The program ends with it, though it would take minutes."""
+        here = os.path.dirname(os.path.abspath(__file__))
+        script = ("import sys; sys.path.insert(0, %r)\n"
+                  "import voxplex; from phantoms import ball\n"
+                  "voxplex.mesh(ball(64, (30.0, 12.0)), 0.12, force=True, progress=lambda _: print('started', flush=True))" % here)
+        with subprocess.Popen([sys.executable, "-c", script], text=True, stdout=subprocess.PIPE) as process:
+            self.assertEqual(process.stdout.readline(), "started\n")
+            (program,) = children(process.pid)
+            process.kill()
+        for _ in range(600):
+            if not os.path.exists(f"/proc/{program}"):
+                break
+            time.sleep(0.1)
+        self.assertFalse(os.path.exists(f"/proc/{program}"))
 
     def test_killed(self):
         """As by a kernel that has no memory left."""

@@ -3,11 +3,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reading of segmentations and writing of meshes."""
 
+import errno
 import os
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import warnings
 from pathlib import Path
 
@@ -228,6 +230,37 @@ class Files(unittest.TestCase):
         self.assertEqual(len(files), len(mesh.field_data["TimePlanes"]) + 1)
         self.assertEqual(sum(len(meshfiles.read_pentatopes(file).cells) for file in files), len(mesh.cells))
 
+    def test_space_of_the_mesh(self):
+        """A file is read in the coordinates of what is in memory."""
+        image = voxplex.read_segmentation(self.image, space="RAS")
+        mesh = voxplex.mesh(image, 2.0)
+        self.assertEqual(voxplex.quality(mesh, self.image), voxplex.quality(mesh, image))
+        sizes = self.folder / "sizes.nrrd"
+        write_nrrd(sizes, numpy.full(self.labels.shape, 0.8, dtype=numpy.float32))
+        header = sizes.read_bytes().replace(b"float32", b"float")
+        sizes.write_bytes(header)
+        finer = voxplex.mesh(image, 2.0, size_image=sizes)
+        self.assertGreater(len(finer.cells), 1.5 * len(mesh.cells))
+
+    def test_interfaces_follow_the_mesh(self):
+        mesh = voxplex.mesh(self.image, 2.0)
+        mesh.points[:] *= 0.001
+        mesh.write(self.folder / "mesh.inp", interfaces=self.folder / "plc.stl")
+        triangles = numpy.frombuffer((self.folder / "plc.stl").read_bytes()[84:], dtype=numpy.uint8).reshape(-1, 50)
+        corners = numpy.ascontiguousarray(triangles[:, 12:48]).view("<f4").reshape(-1, 3)
+        numpy.testing.assert_allclose(corners.max(axis=0), mesh.points.max(axis=0), rtol=1e-6)
+
+    def test_no_mesh(self):
+        mesh = voxplex.mesh(self.image, 2.0)
+        mesh.points[3] = numpy.nan
+        with self.assertRaisesRegex(voxplex.FileError, "point 3 has coordinates that are not finite"):
+            mesh.write(self.folder / "mesh.inp")
+
+    def test_full_temporary_folder(self):
+        with unittest.mock.patch("voxplex.program.run", side_effect=OSError(errno.ENOSPC, "No space left on device")):
+            with self.assertRaisesRegex(voxplex.FileError, "the temporary folder .* is full.*TMPDIR"):
+                voxplex.mesh(self.labels, 2.0)
+
     def test_refusals(self):
         mesh = voxplex.mesh(self.image, 3.0)
         before = sorted(self.folder.iterdir())
@@ -244,6 +277,7 @@ class Files(unittest.TestCase):
             (voxplex.FileError, "no-folder", lambda: mesh.write(self.folder / "no-folder" / "mesh.vtu")),
             (voxplex.FileError, "stl", lambda: mesh.write(self.folder / "mesh.stl")),
             (TypeError, "path", mesh.write),
+            (voxplex.FileError, "^slabs: the mesh has no time planes", lambda: mesh.write(self.folder / "s.vtu", slabs="s")),
         ]
         for kind, words, call in cases:
             with self.subTest(words=words), self.assertRaisesRegex(kind, words):

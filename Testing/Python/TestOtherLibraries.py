@@ -47,6 +47,28 @@ class Libraries(unittest.TestCase):
         mesh = voxplex.mesh(series, 2.0)
         self.assertEqual((mesh.times.min(), mesh.times.max()), (1.0, 2.5))
 
+    @needs("SimpleITK")
+    def test_components(self):
+        """They may be colours or vectors as well as frames."""
+        import SimpleITK
+        image = SimpleITK.Compose([SimpleITK.GetImageFromArray(frame.astype(numpy.int16)) for frame in beating()])
+        with self.assertRaisesRegex(ValueError, "4 components in each voxel"):
+            voxplex.mesh(image, 2.0)
+        series = voxplex.mesh(beating(), 2.0, threads=1)
+        self.assertTrue(same(series, voxplex.mesh(image, 2.0, times=range(4), threads=1)))
+        self.assertTrue(same(series, voxplex.mesh([SimpleITK.GetImageFromArray(frame) for frame in beating()], 2.0, threads=1)))
+
+    @needs("nibabel")
+    def test_nibabel(self):
+        import nibabel
+        affine = numpy.diag((-1, -1, 1, 1)) @ numpy.block([
+            [numpy.array(PLACE["direction"]) * PLACE["spacing"], numpy.array(PLACE["origin"])[:, None]], [0, 0, 0, 1]])
+        image = nibabel.Nifti1Image(brick().T, affine)
+        self.assertTrue(same(self.mesh, voxplex.mesh(image, 2.0, threads=1)))
+        series = nibabel.Nifti1Image(beating().T, numpy.eye(4))
+        series.header.set_zooms((1, 1, 1, 0.5))
+        self.assertEqual(voxplex.mesh(series, 2.0).times.max(), 1.5)
+
     @needs("itk")
     def test_itk(self):
         import itk

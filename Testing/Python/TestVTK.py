@@ -160,6 +160,8 @@ class Sources(unittest.TestCase):
             voxplex.mesh([undated[0], *frames[1:]], 2.0)
         with self.assertRaisesRegex(ValueError, "different shapes"):
             voxplex.mesh([undated[0], voxplex.Image(brick()).to_vtk()], 2.0)
+        with self.assertRaisesRegex(ValueError, "frame 1 does not lie where frame 0 lies"):
+            voxplex.mesh([undated[0], voxplex.Image(beating()[1], origin=(0, 0, 1)).to_vtk()], 2.0)
         with self.assertRaisesRegex(ValueError, "two frames or more"):
             voxplex.mesh(undated[:1], 2.0)
 
@@ -241,7 +243,9 @@ class Meshes(unittest.TestCase):
             self.assertTrue(numpy.shares_memory(mesh.points, back.points))
             surfaces = voxplex.Interfaces.from_vtk(mesh.interfaces.to_vtk())
             self.assertTrue(same(mesh.interfaces, surfaces))
-        self.assertIsNone(back.interfaces)
+        self.assertFalse(back.has_interfaces)
+        with self.assertRaisesRegex(ValueError, "interfaces of this mesh are not known"):
+            back.interfaces
 
     def test_grid_outlives_the_mesh(self):
         grid = voxplex.mesh(brick(), 2.0, threads=1).to_vtk()
@@ -279,8 +283,30 @@ class Meshes(unittest.TestCase):
             self.mesh.times
         with self.assertRaisesRegex(ValueError, "no cell array Label"):
             voxplex.Mesh.from_vtk(vtkUnstructuredGrid()).labels
+        with self.assertRaisesRegex(ValueError, "3 corners, those of a voxplex.Mesh 4 or 5"):
+            voxplex.Mesh.from_vtk(self.mesh.interfaces.to_vtk())
         with self.assertRaisesRegex(TypeError, "not (vtk)?ImageData"):
             voxplex.Mesh.from_vtk(vtkImageData())
+
+    def test_arrays_of_any_kind(self):
+        mesh = voxplex.mesh(brick(), 2.0)
+        expected = mesh.points.copy()
+        mesh.points = mesh.points.astype(">f8")
+        mesh.cell_data["Half"] = (mesh.labels == 5).astype(">f2")
+        mesh.cell_data["Is5"] = mesh.labels == 5
+        grid = mesh.to_vtk()
+        numpy.testing.assert_array_equal(vtk_to_numpy(grid.GetPoints().GetData()), expected)
+        for name in ("Half", "Is5"):
+            numpy.testing.assert_array_equal(vtk_to_numpy(grid.GetCellData().GetArray(name)), mesh.labels == 5)
+        mesh.cell_data["Half"] = numpy.ones(3)
+        with self.assertRaisesRegex(ValueError, r"cell_data\['Half'\] has 3 rows, not"):
+            mesh.to_vtk()
+        mesh.cell_data["Half"] = numpy.array(["a"] * len(mesh.cells))
+        with self.assertRaisesRegex(TypeError, "array 'Half' has elements of type <U1"):
+            mesh.to_vtk()
+        mesh.cells = mesh.cells + len(mesh.points)
+        with self.assertRaisesRegex(ValueError, "cells must be numbers of points, from 0 to"):
+            mesh.to_vtk()
 
     def test_empty(self):
         mesh = voxplex.Mesh.from_vtk(vtkUnstructuredGrid())
