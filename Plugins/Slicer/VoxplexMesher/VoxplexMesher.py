@@ -15,7 +15,7 @@ class VoxplexMesher(ScriptedLoadableModule):
         ScriptedLoadableModule.__init__(self, parent)
         parent.title = "Voxplex Mesher"
         parent.categories = ["Segmentation"]
-        parent.dependencies = ["Segmentations", "SegmentationToTetMesh"]
+        parent.dependencies = ["Segmentations"]
         parent.contributors = ["The Voxplex developers"]
         parent.helpText = ("Turns segments into a conforming mesh of tetrahedra for finite elements: choose a "
                            "segmentation, uncheck what shall become background, give a delta, and press Apply. "

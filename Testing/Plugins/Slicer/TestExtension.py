@@ -16,36 +16,46 @@ EXTENSION = REPOSITORY / "Plugins" / "Slicer"
 CMAKE = os.environ.get("VOXPLEX_CMAKE", "cmake")
 
 
+def configure(folder, *options):
+    done = subprocess.run([CMAKE, "-S", EXTENSION, "-B", folder, "-DSlicer_DIR=%s" % (HERE / "standins" / "cmake"),
+                           "-DCMAKE_BUILD_TYPE=Release", *options], capture_output=True, text=True, timeout=300)
+    if done.returncode:
+        raise AssertionError(done.stdout + done.stderr)
+
+
 class Extension(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory(prefix="voxplex-slicer-")
         cls.addClassCleanup(folder.cleanup)
         cls.build = Path(folder.name)
-        # The real package, from a Slicer that is not there, would be found here, too.
-        done = subprocess.run([CMAKE, "-S", EXTENSION, "-B", cls.build, "-DSlicer_DIR=%s" % (HERE / "standins" / "cmake"),
-                               "-DCMAKE_BUILD_TYPE=Release",
-                               "-DVOXPLEX_REPOSITORY_URL=https://example.org/elsewhere"],
-                              capture_output=True, text=True, timeout=300)
-        if done.returncode:
-            raise AssertionError(done.stdout + done.stderr)
+        configure(cls.build)
         cls.description = dict(line.split(" ", 1) for line in
                                (cls.build / "VoxplexMesher.description").read_text().splitlines())
 
     def test_metadata(self):
         d = self.description
         self.assertEqual(d["NAME"], "VoxplexMesher")
-        self.assertEqual(d["HOMEPAGE"], "https://example.org/elsewhere")
         self.assertNotIn("\n", d["DESCRIPTION"])
         self.assertLess(len(d["DESCRIPTION"]), 200)
-        for key in ("ICONURL", "SCREENSHOTURLS"):
-            url = d[key]
-            self.assertRegex(url, r"^https://example\.org/elsewhere/raw/main/.*\.png$")
-            self.assertTrue((REPOSITORY / url.split("/raw/main/")[1]).is_file(), url)
+
+    def test_pictures(self):
+        """As the checks of the index find them, in the text of the file at the root of the extension's repository."""
+        text = (EXTENSION / "CMakeLists.txt").read_text()
+        self.assertEqual(re.search(r"project\s*\(\s*([^\s\)\n\r]+)", text)[1], "VoxplexMesher")
+        for name, root in (("ICONURL", EXTENSION), ("SCREENSHOTURLS", REPOSITORY)):
+            url, = re.findall(r'set\s*\(EXTENSION_%s\s*"([^"]+)"\)' % name, text)
+            self.assertRegex(url, r"^https://[^$]*/raw/main/[^$]*\.png$")
+            self.assertTrue((root / url.split("/raw/main/")[1]).is_file(), url)
+
+    def test_licence(self):
+        self.assertEqual((EXTENSION / "LICENSE").read_text(), (REPOSITORY / "LICENSE").read_text())
 
     def test_entry_of_the_index(self):
-        """The rules of slicer-extension-catalog-entry-schema-v1.0.1.json."""
-        entry = json.loads((self.build / "VoxplexMesher.json").read_text())
+        """The rules of slicer-extension-catalog-entry-schema-v1.0.1.json, and of the checks of the index."""
+        text = (EXTENSION / "VoxplexMesher.json").read_text()
+        self.assertNotIn("\r", text)
+        entry = json.loads(text)
         kinds = {"$schema": str, "category": str, "scm_url": str, "scm_revision": str, "scm_type": str,
                  "build_dependencies": list, "build_subdirectory": str, "enabled": bool, "tier": int}
         self.assertLessEqual({"$schema", "category", "scm_url"}, set(entry))
@@ -53,10 +63,12 @@ class Extension(unittest.TestCase):
         for key, value in entry.items():
             self.assertIsInstance(value, kinds[key], key)
         self.assertIn(entry["scm_type"], ("git", "local"))
-        self.assertIn(entry["tier"], (1, 3, 5))
+        self.assertIn(entry["tier"], range(1, 6))
         self.assertIn("slicer-extension-catalog-entry-schema-v1.0.1", entry["$schema"])
-        self.assertEqual((entry["category"], entry["scm_url"]),
-                         (self.description["CATEGORY"], "https://example.org/elsewhere"))
+        self.assertRegex(entry["scm_url"], r"^(https|git)://.*/Slicer\w+\.git$")
+        self.assertEqual(entry["scm_url"], self.description["HOMEPAGE"] + ".git")
+        self.assertEqual(entry["category"], self.description["CATEGORY"])
+        self.assertEqual((entry["build_dependencies"], self.description["DEPENDS"]), ([], "NA"))
 
     def test_every_script_is_packaged(self):
         folder = EXTENSION / "VoxplexMesher"
@@ -65,20 +77,30 @@ class Extension(unittest.TestCase):
             if path.suffix in (".py", ".png"):
                 self.assertIn(str(path.relative_to(folder)), listed)
 
-    def test_what_is_installed(self):
-        """The modules where Slicer looks for them, and nothing of the libraries' headers and packages."""
-        script = (self.build / "cmake_install.cmake").read_text()
+    def test_nothing_is_compiled(self):
+        """And nothing of the repository outside of the extension's folder is needed."""
+        scripts = (self.build / "VoxplexMesher" / "cmake_install.cmake").read_text()
+        self.assertIn("qt-scripted-modules/VoxplexMesherLib", scripts)
+        self.assertIn("VoxplexMesherLib/Table.py", scripts)
+        self.assertNotIn("cli-modules", (self.build / "cmake_install.cmake").read_text())
+        self.assertNotIn("CGAL_DIR", (self.build / "CMakeCache.txt").read_text())
+
+    def test_with_the_cli_module(self):
+        """It goes where Slicer looks for it, and nothing of the libraries' headers and packages is installed."""
+        folder = tempfile.TemporaryDirectory(prefix="voxplex-slicer-")
+        self.addCleanup(folder.cleanup)
+        build = Path(folder.name)
+        configure(build, "-DVOXPLEX_BUILD_CLI_MODULE=ON")
+        script = (build / "cmake_install.cmake").read_text()
         self.assertEqual(set(re.findall(r"\$\{CMAKE_INSTALL_PREFIX\}/([^\"]*/)(?:lib)?SegmentationToTetMesh", script)),
                          {"lib/Slicer-5.8/cli-modules/"})
         self.assertIn('lib/Slicer-5.8/cli-modules/SegmentationToTetMesh"', script)
         self.assertIn('lib/Slicer-5.8/cli-modules/libSegmentationToTetMeshLib.so"', script)
         self.assertNotIn("Voxplex/cmake_install.cmake", script)
-        cache = (self.build / "CMakeCache.txt").read_text()
+        cache = (build / "CMakeCache.txt").read_text()
+        self.assertIn("CGAL_DIR", cache)
         # Where Slicer's launcher of the build tree looks.
-        self.assertIn("VOXPLEX_SLICER_CLI_OUTPUT_DIRECTORY:PATH=%s/lib/Slicer-5.8/cli-modules\n" % self.build, cache)
-        scripts = (self.build / "VoxplexMesher" / "cmake_install.cmake").read_text()
-        self.assertIn("qt-scripted-modules/VoxplexMesherLib", scripts)
-        self.assertIn("VoxplexMesherLib/Table.py", scripts)
+        self.assertIn("VOXPLEX_SLICER_CLI_OUTPUT_DIRECTORY:PATH=%s/lib/Slicer-5.8/cli-modules\n" % build, cache)
 
     def test_slicer_is_needed(self):
         with tempfile.TemporaryDirectory() as folder:

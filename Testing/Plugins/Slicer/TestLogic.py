@@ -1,24 +1,24 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The logic of the scripted module, without Slicer: with the CLI module as a process, and with the VTK filter."""
+"""The logic of the scripted module, without Slicer: with the program as a process, beside the CLI module."""
 import os
 import re
 import subprocess
 import sys
 import unittest
-from dataclasses import fields, replace
-from xml.etree import ElementTree
+from dataclasses import asdict, fields, replace
 
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import images
-from module import EXECUTABLE, MODULE, ModuleTestCase
-from VoxplexMesherLib.Logic import (MeshingError, MeshingLogic, Phase, RunState, Segment, Settings, commandParameters,
+from module import MODULE, ModuleTestCase, descriptions
+from VoxplexMesherLib.Logic import (DEFAULTS, PARAMETERS, MeshingError, MeshingLogic, Phase, RunState, Segment, Settings,
                                     describeMesh, describeQuality, labelMesh, measureLabels,
-                                    mergeChoices, parseInterfaceSizes, parseSize, storeChoices)
+                                    mergeChoices, parseInterfaceSizes, parseSize, programOptions, storeChoices)
+
+PROGRAM = os.environ["VOXPLEX_PROGRAM"]
 
 SEGMENTS = [Segment("s1", "Bone", (1.0, 0.9, 0.7)), Segment("s2", "Mark", (0.8, 0.1, 0.1)),
             Segment("s3", "Muscle, left", (0.5, 0.2, 0.2))]
@@ -32,30 +32,23 @@ def read(path):
 
 
 class ProcessRunner:
-    """Calls the executable; waits for it in start()."""
+    """Calls the program; waits for it in start()."""
 
     def __init__(self, folder):
         self.input, self.output = folder / "labels.nrrd", folder / "mesh.vtu"
-        flags = subprocess.run([EXECUTABLE, "--xml"], capture_output=True, text=True, check=True).stdout
-        self.flags = {p.findtext("name"): p for g in ElementTree.fromstring(flags.encode()).findall("parameters")
-                      for p in g if p.find("longflag") is not None}
 
-    def start(self, parameters, onChange):
-        arguments = []
-        for name, value in parameters.items():
-            flag = self.flags[name].findtext("longflag")
-            if self.flags[name].tag == "boolean":
-                arguments += [flag] if value else []
-            elif value != "":
-                arguments += [flag, str(value)]
-        self.process = subprocess.Popen([EXECUTABLE, *arguments, self.input, self.output], stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True)
+    def start(self, options, onChange):
+        self.process = subprocess.Popen([PROGRAM, "--input", self.input, "--output", self.output, "--progress", *options],
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         self.cancelled = False
-        for line in self.process.stdout:
-            found = re.match("<filter-progress>(.*)</filter-progress>", line)
+        errors = ""
+        for line in self.process.stderr:
+            found = re.match("([0-9]+) % (.*)", line)
             if found:
-                onChange(RunState(Phase.RUNNING, float(found.group(1))))
-        errors = self.process.communicate()[1]
+                onChange(RunState(Phase.RUNNING, int(found[1]) / 100, found[2]))
+            else:
+                errors += line
+        self.process.communicate()
         if self.cancelled:
             onChange(RunState(Phase.CANCELLED))
         elif self.process.returncode:
@@ -71,49 +64,10 @@ class ProcessRunner:
         return read(self.output)
 
 
-class FilterRunner:
-    """Calls the filter of the Python package."""
-
-    def __init__(self, array):
-        import voxplex
-        self.filter = voxplex.vtkImageToTetMeshFilter()
-        image = vtkImageData()
-        image.SetDimensions(array.shape[::-1])
-        image.GetPointData().SetScalars(numpy_to_vtk(array.ravel(), deep=True))
-        self.filter.SetInputData(image)
-
-    def start(self, parameters, onChange):
-        names = {"delta": "Delta", "elements": "NumberOfElements", "size": "ElementSize", "smoothing": "SmoothingSigma",
-                 "radiusEdge": "RadiusEdgeRatio", "facetAngle": "FacetAngle", "sliverAngle": "SliverAngle",
-                 "gradation": "Gradation", "featureRatio": "FeatureRatio", "largestFeature": "LargestFeature",
-                 "optimiseSeconds": "OptimisationTimeLimit", "interfaceRounds": "InterfaceRounds",
-                 "smallestComponent": "SmallestComponent", "exactComponents": "ExactComponents", "minimumVolume": "MinimumComponentVolume",
-                 "threads": "NumberOfThreads", "reproducible": "Reproducible", "force": "Force"}
-        for name, value in parameters.items():
-            if name in names:
-                getattr(self.filter, "Set" + names[name])(value)
-        self.filter.SetGrading(["uniform", "lfs"].index(parameters["grading"]))
-        self.filter.SetOptimise(parameters["optimise"] == "on")
-        self.filter.SetSampleJunctions(parameters["junctions"] == "on")
-        rest = set(parameters) - set(names) - {"grading", "optimise", "junctions", "labelSizes"}
-        if any(parameters[name] for name in rest):
-            raise AssertionError("not for this runner: %s" % rest)
-        for item in filter(None, parameters["labelSizes"].split(",")):
-            label, size = item.split("=")
-            self.filter.SetLabelSize(int(label), float(size))
-        self.filter.Update()
-        failed = self.filter.GetErrorMessage()
-        onChange(RunState(Phase.FAILED, message=failed) if failed else RunState(Phase.COMPLETED, 1.0))
-
-    def mesh(self):
-        return self.filter.GetOutput()
-
-
 class Choices(unittest.TestCase):
     def test_needs_no_slicer(self):
-        code = "import sys; sys.path.insert(0, %r); import VoxplexMesherLib; VoxplexMesherLib.__path__.append(%r); " \
-               "import VoxplexMesherLib.Logic; sys.exit(any(m in sys.modules for m in ('slicer', 'qt', 'ctk')))" % (
-                   str(MODULE), os.environ["VOXPLEX_SLICER_TABLE"])
+        code = "import sys; sys.path.insert(0, %r); import VoxplexMesherLib.Logic; " \
+               "sys.exit(any(m in sys.modules for m in ('slicer', 'qt', 'ctk')))" % str(MODULE)
         environment = {**os.environ, "PYTHONPATH": ""}
         self.assertEqual(subprocess.run([sys.executable, "-B", "-c", code], env=environment).returncode, 0)
 
@@ -144,55 +98,67 @@ class Choices(unittest.TestCase):
         self.assertEqual((hand.delta, hand.smallestComponent), (0.0, 8))
         self.assertEqual(Settings.fromTexts(Settings(optimise="off", grading="lfs").toTexts().get).optimise, "off")
 
-    def test_parameters(self):
+    def test_options(self):
         segments = [replace(SEGMENTS[0], mesh=False, size=9.0), replace(SEGMENTS[1]), replace(SEGMENTS[2], size=1.5)]
-        parameters = commandParameters(segments, Settings(delta=2.0))
-        self.assertEqual(parameters["labelSizes"], "2=1.5")  # the first is not meshed: the labels are 1 and 2
-        self.assertEqual(parameters["delta"], 2.0)
+        options = programOptions(segments, Settings(delta=2.0, optimise="off", exactComponents=True))
+        self.assertIn("--label-size=2=1.5", options)  # the first is not meshed: the labels are 1 and 2
+        self.assertLess({"--delta=2.0", "--no-optimise", "--exact-components", "--sliver-angle=9.0"}, set(options))
 
-    def test_parameters_that_count(self):
-        """What has no effect is not passed on."""
+    def test_options_that_count(self):
+        """What has no effect is not passed on, nor what stands for none."""
         def names(isosurface=False, **settings):
-            return set(commandParameters(SEGMENTS, Settings(**settings), isosurface))
-        plain = names()
-        self.assertEqual({"delta", "isovalue", "inside", "greySmoothing", "featureRatio", "largestFeature", "quality",
-                          "smoothing"} & plain, {"delta", "quality", "smoothing"})
-        self.assertEqual(names(grading="lfs") - plain, {"featureRatio", "largestFeature"})
-        self.assertEqual(plain - names(elements=9), {"delta"})
-        self.assertEqual(names(isosurface=True) ^ plain, {"isovalue", "inside", "greySmoothing", "quality", "smoothing"})
-        self.assertFalse(commandParameters(SEGMENTS, Settings())["isosurface"])
-        self.assertTrue(commandParameters(SEGMENTS, Settings(), isosurface=True)["isosurface"])
+            return {option.partition("=")[0][2:] for option in programOptions(SEGMENTS, Settings(**settings), isosurface)}
+        plain = names(delta=1.0, quality=True)
+        self.assertEqual({"delta", "isovalue", "inside", "feature-ratio", "largest-feature", "hausdorff", "elements", "size",
+                          "min-component-volume", "optimise-seconds", "no-optimise", "force"} & plain,
+                         {"delta", "hausdorff"})
+        self.assertEqual(names(delta=1.0, quality=True, grading="lfs") - plain, {"feature-ratio", "largest-feature"})
+        self.assertEqual(plain ^ names(elements=9, delta=1.0), {"delta", "elements", "hausdorff"})
+        self.assertEqual(names(isosurface=True, quality=True) ^ names(), {"isovalue", "inside"})
+        self.assertIn("--isovalue=0.0", programOptions(SEGMENTS, Settings(), isosurface=True))
+        self.assertIn("--smoothing=0.5", programOptions(SEGMENTS, Settings(greySmoothing=0.5), isosurface=True))
+
+    def test_the_program_takes_every_option(self):
+        """Each setting with another value than by default, within its range."""
+        def other(name):
+            default, parameter = DEFAULTS[name], PARAMETERS[name]
+            if parameter["words"]:
+                return parameter["words"][1]
+            if isinstance(default, (bool, str)):
+                return {"on": "off", "off": "on", "": "Bone = 2", False: True}[default]
+            return default + (1 if default + 1 <= (parameter["range"][1] or 1e9) else -1)
+        for name in PARAMETERS:
+            settings = Settings(**{name: other(name)}, **({} if name == "grading" else {"grading": "lfs"}))
+            for isosurface in (False, True):
+                options = programOptions(SEGMENTS, settings, isosurface)
+                done = subprocess.run([PROGRAM, "--input=/nonexistent.nrrd", "--output=mesh.vtu", *options],
+                                      capture_output=True, text=True)
+                self.assertEqual((done.returncode, "nonexistent" in done.stderr), (1, True), (options, done.stderr))
 
     def test_interface_sizes(self):
         segments = [*SEGMENTS, Segment("s4", "A : B", (0, 0, 1)), Segment("s5", "T=37", (0, 1, 1))]
         for text, expected in {
-                "": "", " ; ": "", "Bone=0.5": "1=0.5", "Bone = 0,5; Mark : Bone = 2;": "1=0.5,2:1=2.0",
-                "Muscle, left : background = 1": "3:0=1.0", "A : B=1": "4=1.0", "T=37 = 1": "5=1.0", "Bone : A : B = 1": "1:4=1.0"}.items():
-            self.assertEqual(parseInterfaceSizes(text, segments), expected)
+                "": "", " ; ": "", "Bone=0.5": "1=0.5", "Bone = 0,5; Mark : Bone = 2;": "1=0.5 2,1=2.0",
+                "Muscle, left : background = 1": "3,0=1.0", "A : B=1": "4=1.0", "T=37 = 1": "5=1.0", "Bone : A : B = 1": "1,4=1.0"}.items():
+            self.assertEqual(parseInterfaceSizes(text, segments), expected.split())
         for text in ("Bone", "=1", "Skin=1", "Bone : Skin = 1", "Bone = 0", "Bone ="):
             with self.assertRaisesRegex(MeshingError, "is not the size of an interface: write NAME = LENGTH"):
                 parseInterfaceSizes(text, segments)
         # Labels are those of the segments that are meshed.
-        parameters = commandParameters([replace(SEGMENTS[0], mesh=False), *SEGMENTS[1:]], Settings(interfaceSizes="Mark = 1"))
-        self.assertEqual(parameters["interfaceSizes"], "1=1.0")
+        options = programOptions([replace(SEGMENTS[0], mesh=False), *SEGMENTS[1:]], Settings(interfaceSizes="Mark = 1"))
+        self.assertIn("--interface-size=1=1.0", options)
 
     def test_figures_of_quality(self):
-        shapes = {"smallestDihedralAngle": "15.04", "largestDihedralAngle": "154.96", "largestRadiusEdge": "2.413",
-                  "smallestFacetAngle": "30.02", "missingComponents": "0"}
+        shapes = {"quality": {"min_dihedral": 15.04, "max_dihedral": 154.96, "max_radius_edge": 2.413, "min_planar": 30.02}}
         self.assertEqual(describeQuality(shapes), ["Dihedral angles from 15.0 to 155.0 degrees, radius-edge ratio at most 2.41, "
                                                    "angles of triangles from 30.0 degrees"])
-        compared = {**shapes, "hausdorffDistance": "1.2345", "nonManifoldEdges": "2", "volumeError": "0.0151"}
+        compared = {**shapes, "hausdorff": {"voxels": {"distance": 1.2345}}, "topology": {"non_manifold_edges": 2},
+                    "labels": {"1": {"volume_error": 0.01}, "2": {"volume_error": -0.0151}}}
         self.assertEqual(describeQuality(compared)[1:], ["Hausdorff distance 1.23 mm, 2 non-manifold edges, volumes of segments "
                                                          "off by up to 1.5 %"])
-        self.assertEqual(describeQuality({}), [])
-        self.assertEqual(describeQuality({"smallestDihedralAngle": ""}), [])
 
-    def test_parameters_are_those_of_the_cli_module(self):
-        xml = subprocess.run([EXECUTABLE, "--xml"], capture_output=True, check=True).stdout
-        known = {p.findtext("name"): p for g in ElementTree.fromstring(xml).findall("parameters") for p in g}
-        parameters = commandParameters(SEGMENTS, Settings())
-        self.assertLessEqual(set(parameters), set(known))
-        # The defaults agree, too.
+    def test_settings_are_those_of_the_cli_module(self):
+        known = descriptions()
         for field in fields(Settings):
             default = known[field.name].findtext("default") or ""
             value = getattr(Settings(), field.name)
@@ -200,13 +166,13 @@ class Choices(unittest.TestCase):
 
     def test_what_does_not_do(self):
         with self.assertRaisesRegex(MeshingError, "No segment is chosen"):
-            commandParameters([replace(segment, mesh=False) for segment in SEGMENTS], Settings())
+            programOptions([replace(segment, mesh=False) for segment in SEGMENTS], Settings())
         with self.assertRaisesRegex(MeshingError, "Delta must be 0 or more"):
-            commandParameters(SEGMENTS, Settings(delta=-1.0))
+            programOptions(SEGMENTS, Settings(delta=-1.0))
         with self.assertRaisesRegex(MeshingError, "Size must be 0 or more"):
-            commandParameters(SEGMENTS, Settings(size=float("nan")))
+            programOptions(SEGMENTS, Settings(size=float("nan")))
         with self.assertRaisesRegex(MeshingError, "Elements must be 0 or more"):
-            commandParameters(SEGMENTS, Settings(elements=-5))
+            programOptions(SEGMENTS, Settings(elements=-5))
 
 
 class Runs(ModuleTestCase):
@@ -271,7 +237,7 @@ class Runs(ModuleTestCase):
     def test_failure(self):
         self.logic.start(self.segments, Settings(radiusEdge=1.2))
         self.assertEqual(self.logic.state.phase, Phase.FAILED)
-        self.assertRegex(self.lines[-1], "^Failed: SegmentationToTetMesh: cannot mesh .*--force")
+        self.assertRegex(self.lines[-1], "^Failed: voxplex: --radius-edge: .*--force")
         self.assertFalse(self.logic.isBusy)
         self.logic.start(self.segments, Settings())  # and again
         self.assertEqual(self.logic.state.phase, Phase.COMPLETED)
@@ -321,18 +287,22 @@ class Runs(ModuleTestCase):
             with self.assertRaisesRegex(MeshingError, "made no tetrahedra"):
                 measureLabels(mesh)
 
-    @unittest.skipUnless(os.environ.get("VOXPLEX_HAVE_PYTHON"), "the Python package was not built")
-    def test_same_mesh_from_the_filter(self):
-        """One runner is as good as the other."""
+    def test_same_mesh_from_the_cli_module(self):
+        """Settings mean the same in both."""
         settings = Settings(delta=2.5, smoothing=0.5, radiusEdge=2.1, facetAngle=25.0, sliverAngle=7.0, gradation=0.5,
                             grading="lfs", featureRatio=0.8, largestFeature=9.0, junctions="off", interfaceRounds=1,
-                            smallestComponent=3, minimumVolume=1.5, optimise="off", threads=1)
-        segments = [replace(self.segments[0], size=2.0), self.segments[1]]
-        self.logic.start(segments, settings)
-        other = MeshingLogic(FilterRunner(self.array))
-        other.start(segments, settings)
-        self.assertEqual(other.state.phase, Phase.COMPLETED)
-        self.assertEqual(measureLabels(self.logic.runner.mesh()), measureLabels(other.runner.mesh()))
+                            smallestComponent=3, minimumVolume=1.5, optimise="off", threads=1,
+                            interfaceSizes="Bone : Mark = 2")
+        self.logic.start([replace(self.segments[0], size=2.0), self.segments[1]], settings)
+        parameters = {**asdict(settings), "labelSizes": "1=2.0", "interfaceSizes": "1:2=2.0"}
+        flags = []
+        for name, p in descriptions().items():
+            if name in parameters and p.tag == "boolean":
+                flags += [p.findtext("longflag")] if parameters[name] else []
+            elif name in parameters:
+                flags += [p.findtext("longflag"), parameters[name]]
+        self.run_module(*flags, "labels.nrrd", "other.vtu")
+        self.assertEqual(measureLabels(self.logic.runner.mesh()), measureLabels(read(self.folder / "other.vtu")))
 
 
 if __name__ == "__main__":

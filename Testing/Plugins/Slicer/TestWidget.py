@@ -1,12 +1,15 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scripted module from its panel to the coloured mesh, with stand-ins for Slicer and Qt, and the real CLI module.
+"""The scripted module from its panel to the coloured mesh, with stand-ins for Slicer and Qt, and the real program.
 
 It finds misspelt names and wrong arguments, and what the panel does when. How the panel looks it cannot tell.
 """
+import os
 import re
+import subprocess
 import sys
+import tempfile
 import types
 import unittest
 from dataclasses import fields
@@ -21,7 +24,7 @@ import images  # noqa: E402
 import qt  # noqa: E402
 import slicer  # noqa: E402
 import vtk  # noqa: E402
-from module import MODULE  # noqa: E402
+from module import MODULE, descriptions  # noqa: E402
 import VoxplexMesher  # noqa: E402
 from VoxplexMesherLib.Logic import Phase, Settings, measureLabels  # noqa: E402
 from VoxplexMesherLib.Scene import isVolume  # noqa: E402
@@ -30,16 +33,26 @@ from VoxplexMesherLib.Widget import COMBO_BOXES, FLAGS, MESH, NAME, SIZE, SPIN_B
 
 class PanelTestCase(unittest.TestCase):
     def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="voxplex-slicer-")
+        self.addCleanup(folder.cleanup)
+        slicer.app.temporaryPath = folder.name
         slicer.mrmlScene.nodes.clear()
         slicer.mrmlScene.observers.clear()
-        slicer.cli.running.clear()
-        slicer.cli.commands.clear()
-        slicer.util.shownErrors.clear()
+        for texts in (qt.QProcess.commands, slicer.util.shownErrors, slicer.util.questions, slicer.util.installations):
+            texts.clear()
+        slicer.util.uninstall()
+        slicer.util.install()
         slicer.labelmapGeometry = images.Geometry()
         self.array = images.two_labels()
         self.widget = VoxplexMesher.VoxplexMesherWidget()
         self.widget.setup()
         self.addCleanup(self.widget.cleanup)
+        self.addCleanup(self.check_nothing_is_left)
+
+    def check_nothing_is_left(self):
+        self.assertEqual(qt.QProcess.running, [])
+        self.assertNotIn("Voxplex label map", slicer.mrmlScene.names("vtkMRMLLabelMapVolumeNode"))
+        self.assertEqual(os.listdir(slicer.app.temporaryPath), [])
 
     def add_segmentation(self, name="Knee", size=None):
         node = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLSegmentationNode", name)
@@ -76,7 +89,7 @@ class Panel(PanelTestCase):
         parent = types.SimpleNamespace()
         VoxplexMesher.VoxplexMesher(parent)
         self.assertEqual((parent.title, parent.categories), ("Voxplex Mesher", ["Segmentation"]))
-        self.assertEqual(parent.dependencies, ["Segmentations", "SegmentationToTetMesh"])
+        self.assertEqual(parent.dependencies, ["Segmentations"])
         self.assertTrue((MODULE / "Resources" / "Icons" / "VoxplexMesher.png").is_file())
 
     def test_apply_needs_a_segmentation(self):
@@ -155,7 +168,7 @@ class Panel(PanelTestCase):
         self.assertEqual(self.widget.interfaceSizesLineEdit.text, "Bone = 2")
 
     def test_choices_of_the_cli_module(self):
-        parameters = slicer.modules.segmentationtotetmesh.parameters
+        parameters = descriptions()
         for name in COMBO_BOXES:
             offered = [data for _, data in getattr(self.widget, name + "ComboBox").items]
             self.assertEqual(offered, [e.text for e in parameters[name].findall("element")])
@@ -196,7 +209,7 @@ class Panel(PanelTestCase):
         self.assertEqual([isVolume(n) for n in (volume, labels, segmentation, None)], [True, False, False, False])
 
     def test_defaults_are_those_of_the_cli_module(self):
-        for name, p in slicer.modules.segmentationtotetmesh.parameters.items():
+        for name, p in descriptions().items():
             box = getattr(self.widget, name + "SpinBox", None)
             if box:
                 self.assertEqual(box.value, float(p.findtext("default")), name)
@@ -248,9 +261,10 @@ class Runs(PanelTestCase):
         self.assertTrue(self.widget.applyButton.enabled)
         self.assertFalse(self.widget.cancelButton.enabled)
         self.assertEqual((self.widget.progressBar.value, self.widget.progressBar.format), (100, "completed"))
-        command = slicer.cli.commands[-1]
-        self.assertEqual(command[command.index("--delta") + 1], "2.0")
+        command = qt.QProcess.commands[-1]
+        self.assertIn("--delta=2.0", command)
         self.assertNotIn("--force", command)
+        self.assertEqual((slicer.util.questions, slicer.util.installations), ([], []))
 
         mesh = self.mesh_node().GetMesh()
         self.assertEqual(self.mesh_node().GetName(), "Knee mesh")
@@ -261,9 +275,8 @@ class Runs(PanelTestCase):
         self.assertRegex("\n".join(self.log()), r"(?s)^Meshing Bone, Muscle\n\d+ tetrahedra with \d+ nodes\n  Bone: \d+ "
                          r"tetrahedra, .* mm³\n  Muscle: \d+ ")
         self.check_display(self.mesh_node().GetDisplayNode())
-        # The temporary label map, its colours and the node of the CLI module are gone.
-        self.assertEqual(slicer.mrmlScene.names("vtkMRMLLabelMapVolumeNode"), [])
-        self.assertEqual(slicer.mrmlScene.names("vtkMRMLCommandLineModuleNode"), [])
+        # The temporary label map, its display and its colours are gone.
+        self.assertEqual(slicer.mrmlScene.names("vtkMRMLDisplayNode"), ["vtkMRMLDisplayNode"])
         self.assertEqual(slicer.mrmlScene.names("vtkMRMLColorTableNode"), ["Knee mesh labels"])
 
     def check_display(self, display):
@@ -286,11 +299,8 @@ class Runs(PanelTestCase):
         self.widget.optimiseCheckBox.checked = False
         self.widget.interfaceSizesLineEdit.type("Muscle : background = 1.5")
         self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
-        command = slicer.cli.commands[-1]
-        for flag, value in (("--labelsizes", "1=1.5"), ("--radiusedge", "1.9"), ("--grading", "lfs"), ("--optimise", "off"),
-                            ("--interfacesizes", "1:0=1.5")):
-            self.assertEqual(command[command.index(flag) + 1], value)
-        self.assertIn("--force", command)
+        self.assertLess({"--label-size=1=1.5", "--radius-edge=1.9", "--grading=lfs", "--no-optimise",
+                         "--interface-size=1,0=1.5", "--force"}, set(qt.QProcess.commands[-1]))
         figures, = measureLabels(self.mesh_node().GetMesh())
         self.assertEqual(figures.label, 1)
         self.assertAlmostEqual(figures.volume / (self.array == 7).sum(), 1.0, delta=0.08)
@@ -340,14 +350,14 @@ class Runs(PanelTestCase):
         self.widget.parameterNode.references["Volume"] = volume.GetID()  # as a script can
         self.widget.applyButton.click()
         self.assertRegex(slicer.util.shownErrors[-1], "not both")
-        self.assertEqual(slicer.cli.running, [])
+        self.assertEqual(qt.QProcess.commands, [])
 
     def test_wrong_interface_sizes(self):
         self.choose_segmentation()
         self.widget.interfaceSizesLineEdit.type("Bone : Skin = 1")
         self.widget.applyButton.click()
         self.assertRegex(slicer.util.shownErrors[-1], "'Bone : Skin = 1' is not the size of an interface")
-        self.assertEqual(slicer.cli.running, [])
+        self.assertEqual(qt.QProcess.commands, [])
         self.assertTrue(self.widget.applyButton.enabled)
 
     def test_interfaces(self):
@@ -377,26 +387,62 @@ class Runs(PanelTestCase):
             self.item(row, MESH).setCheckState(qt.Qt.Unchecked)
         self.widget.applyButton.click()
         self.assertRegex(slicer.util.shownErrors[-1], "No segment is chosen")
-        self.assertEqual(slicer.cli.running, [])
+        self.assertEqual(qt.QProcess.commands, [])
         self.assertTrue(self.widget.applyButton.enabled)
 
     def test_failure(self):
         self.choose_segmentation()
         self.widget.radiusEdgeSpinBox.value = 1.2
         self.assertEqual(self.apply().phase, Phase.FAILED)
-        self.assertRegex(self.log()[-1], "^Failed: SegmentationToTetMesh: cannot mesh .*--force")
+        self.assertRegex(self.log()[-1], "^Failed: voxplex: --radius-edge: .*--force to try all the same$")
         self.assertEqual(self.widget.progressBar.format, "failed")
         self.assertIsNone(self.mesh_node().GetMesh())
         self.assertEqual(slicer.mrmlScene.names("vtkMRMLLabelMapVolumeNode"), [])
         self.assertTrue(self.widget.applyButton.enabled)
 
-    def test_missing_cli_module(self):
-        module = slicer.modules.__dict__.pop("segmentationtotetmesh")
-        self.addCleanup(setattr, slicer.modules, "segmentationtotetmesh", module)
+    def test_failure_in_the_middle(self):
+        """The image is named as in the scene, and not as the file that it was in."""
         self.choose_segmentation()
-        self.widget.applyButton.click()
-        self.assertRegex(slicer.util.shownErrors[-1], "module paths")
-        self.assertTrue(self.widget.applyButton.enabled)
+        self.widget.deltaSpinBox.value = 0.001
+        self.assertEqual(self.apply().phase, Phase.FAILED)
+        self.assertRegex(self.log()[-1], "^Failed: voxplex: cannot mesh 'Knee': ")
+
+    def test_warning(self):
+        node = self.choose_segmentation()
+        speck = np.zeros_like(self.array, dtype=bool)
+        speck[12, 12, 12] = True
+        node.GetSegmentation().add("c", "Speck", (1, 1, 1), speck)
+        self.widget.deltaSpinBox.value = 3.0
+        self.widget.smallestComponentSpinBox.value = 0
+        self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
+        self.assertRegex("\n".join(self.log()), "voxplex: warning: The mesh lacks these labels .*: 3")
+        self.assertIn("  Speck: none; it is too small for this delta", self.log())
+
+    def test_place_of_the_mesh(self):
+        """In an oblique image the mesh lies where the voxels lie in the scene, and does not say what coordinates it has:
+        Slicer adds that to files where it is not yet there."""
+        angle = 0.4
+        turned = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+        slicer.labelmapGeometry = images.Geometry((10.0, -20.0, 30.0), (0.5, 1.0, 2.0), turned[:, [1, 0, 2]])
+        self.choose_segmentation()
+        self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
+        mesh = self.mesh_node().GetMesh()
+        center = slicer.labelmapGeometry.physical((11.5, 11.5, 11.5)) * (-1, -1, 1)
+        bounds = np.array(mesh.GetBounds()).reshape(3, 2)
+        np.testing.assert_allclose(bounds.mean(axis=1), center, atol=0.5)
+        self.assertIsNone(mesh.GetFieldData().GetAbstractArray("SPACE"))
+        for f, label in zip(measureLabels(mesh), (3, 7)):
+            self.assertAlmostEqual(f.volume / (self.array == label).sum(), 1.0, delta=0.08)
+
+    def test_image_that_cannot_be_written(self):
+        slicer.app.temporaryPath, folder = "/nonexistent", slicer.app.temporaryPath
+        self.choose_segmentation()
+        try:
+            self.widget.applyButton.click()
+        finally:
+            slicer.app.temporaryPath = folder
+        self.assertRegex(slicer.util.shownErrors[-1], "nonexistent")
+        self.assertEqual(self.widget.progressBar.format, "failed")
 
     def test_cancel(self):
         self.choose_segmentation(size=64)
@@ -405,7 +451,7 @@ class Runs(PanelTestCase):
         self.widget.applyButton.click()
         for _ in range(20):
             slicer.app.processEvents()
-        process = slicer.cli.running[0].process
+        process = qt.QProcess.running[0].process
         self.assertIsNone(process.poll())
         self.widget.cancelButton.click()
         self.assertEqual(self.widget.progressBar.format, "cancelling")
@@ -415,13 +461,116 @@ class Runs(PanelTestCase):
         self.assertEqual(self.log()[-1], "Cancelled")
         self.assertIsNone(self.mesh_node().GetMesh())
         self.assertTrue(self.widget.applyButton.enabled)
-        self.assertEqual(slicer.mrmlScene.names("vtkMRMLLabelMapVolumeNode"), [])
+        self.widget.deltaSpinBox.value = 8.0  # and again
+        self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
+
+    def test_closing_the_scene_cancels(self):
+        self.choose_segmentation()
+        self.widget.applyButton.click()
+        slicer.mrmlScene.Clear()
+        self.assertEqual(self.finish().phase, Phase.CANCELLED)
 
     def test_self_test_of_the_module(self):
-        """What Slicer's developer mode runs."""
-        slicer.labelmapGeometry = images.Geometry(origin=(-15.0, -15.0, -15.0))
+        """What Slicer's developer mode runs. It installs nothing."""
+        slicer.labelmapGeometry = images.Geometry(origin=(15.0, 15.0, -15.0), direction=np.diag((-1.0, -1.0, 1.0)))
         test = VoxplexMesher.VoxplexMesherTest()
         test.runTest()
+        slicer.util.uninstall()
+        with self.assertRaisesRegex(unittest.SkipTest, "voxplex-mesh is not installed"):
+            test.runTest()
+        self.assertEqual(slicer.util.questions, [])
+
+
+class Installations(PanelTestCase):
+    """Of the program, which a Slicer that was downloaded does not have."""
+
+    def setUp(self):
+        super().setUp()
+        slicer.util.uninstall()
+        self.choose_segmentation()
+        self.addCleanup(setattr, slicer.util, "answer", True)
+        self.addCleanup(setattr, slicer.util, "installation", None)
+
+    def test_with_consent(self):
+        self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
+        self.assertRegex(slicer.util.questions[0], "voxplex-mesh.*PyPI")
+        self.assertEqual(slicer.util.installations, ["--only-binary=:all: voxplex-mesh"])
+        self.apply()  # it asks once
+        self.assertEqual((len(slicer.util.questions), len(slicer.util.installations)), (1, 1))
+
+    def test_refused(self):
+        slicer.util.answer = False
+        self.assertEqual(self.apply().phase, Phase.CANCELLED)
+        self.assertEqual((slicer.util.installations, slicer.util.shownErrors, qt.QProcess.commands), ([], [], []))
+        self.assertTrue(self.widget.applyButton.enabled)
+        slicer.util.answer = True
+        self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
+
+    def test_nothing_is_asked_for_nothing(self):
+        self.item(0, MESH).setCheckState(qt.Qt.Unchecked)
+        self.item(1, MESH).setCheckState(qt.Qt.Unchecked)
+        self.widget.applyButton.click()
+        self.assertEqual(slicer.util.questions, [])
+
+    def check_failure(self, pattern):
+        self.widget.applyButton.click()
+        self.assertRegex(slicer.util.shownErrors[-1], pattern)
+        self.assertEqual((self.widget.progressBar.format, qt.QProcess.commands), ("failed", []))
+        self.assertTrue(self.widget.applyButton.enabled)
+
+    def test_no_network(self):
+        def fail():
+            raise subprocess.CalledProcessError(1, ["pip"])
+        slicer.util.installation = fail
+        self.check_failure("voxplex-mesh could not be installed.*PyPI cannot be reached")
+        slicer.util.installation = None  # there is one again
+        self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
+
+    def test_cancelled_meanwhile(self):
+        """Slicer processes events while it installs."""
+        def install():
+            self.widget.cancelButton.click()
+            slicer.util.install()
+        slicer.util.installation = install
+        self.assertEqual(self.apply().phase, Phase.CANCELLED)
+        self.assertEqual(qt.QProcess.commands, [])
+
+    def test_what_was_installed_does_not_work(self):
+        slicer.util.installation = lambda: None
+        self.check_failure("voxplex-mesh is installed, but cannot be used: No module named 'voxplex'")
+
+    def test_other_package_of_this_name(self):
+        """`voxplex` on PyPI is no part of this."""
+        sys.modules["voxplex"] = types.ModuleType("voxplex")
+        slicer.util.installation = lambda: None
+        self.check_failure("cannot be used: .*voxplex")
+        self.assertEqual(len(slicer.util.questions), 1)
+
+    def test_package_without_its_program(self):
+        slicer.util.install()
+        from voxplex import installation
+        self.addCleanup(slicer.util.uninstall)
+        installation.PROGRAM = Path("/nonexistent/voxplex")
+        self.check_failure("cannot be used: .*there is no /nonexistent/voxplex")
+        self.assertEqual(slicer.util.questions, [])
+
+    def test_program_that_cannot_be_started(self):
+        self.check_program("#!/nonexistent/interpreter", "^Failed: the program voxplex cannot be started$")
+
+    def test_program_that_crashes(self):
+        self.check_program("#!/bin/sh\nprintf 'voxplex: bad news' >&2\nkill -SEGV $$\n",
+                           "^Failed: the program voxplex crashed, or was ended\nvoxplex: bad news$")
+
+    def check_program(self, text, pattern):
+        slicer.util.install()
+        from voxplex import installation
+        with tempfile.TemporaryDirectory() as folder:
+            installation.PROGRAM = Path(folder) / "voxplex"
+            installation.PROGRAM.write_text(text)
+            installation.PROGRAM.chmod(0o755)
+            self.assertEqual(self.apply().phase, Phase.FAILED)
+        self.assertRegex("\n".join(self.log()[1:]), pattern)
+        self.assertTrue(self.widget.applyButton.enabled)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the CLI module as an application does. The environment says where it is: VOXPLEX_SLICER_CLI (the executable)
-and VOXPLEX_SLICER_LIBRARY (the module library). The scripted module can be imported; VOXPLEX_SLICER_TABLE is the folder with
-what the build adds to it."""
+and VOXPLEX_SLICER_LIBRARY (the module library). The scripted module can be imported."""
 import os
 import re
 import subprocess
@@ -10,6 +9,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 import images  # noqa: F401 (of Testing/Applications, for the tests)
 
@@ -18,9 +18,12 @@ LIBRARY = os.environ["VOXPLEX_SLICER_LIBRARY"]
 MODULE = Path(__file__).resolve().parents[3] / "Plugins" / "Slicer" / "VoxplexMesher"
 sys.path.insert(0, str(MODULE))
 
-import VoxplexMesherLib  # noqa: E402
 
-VoxplexMesherLib.__path__.append(os.environ["VOXPLEX_SLICER_TABLE"])
+def descriptions():
+    """What the CLI module says of its parameters, by their names."""
+    xml = subprocess.run([EXECUTABLE, "--xml"], capture_output=True, check=True).stdout
+    return {p.findtext("name"): p for group in ElementTree.fromstring(xml).findall("parameters")
+            for p in group if p.find("name") is not None}
 
 
 class ModuleTestCase(unittest.TestCase):

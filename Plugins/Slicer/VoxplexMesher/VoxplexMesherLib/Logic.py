@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the module decides, computes and says; needs VTK but not Slicer.
 
-One run is: choose segments and settings, hand the parameters of the CLI module SegmentationToTetMesh to a runner, follow
-its progress, and give the finished mesh the names and colours of the segments. A runner carries the CLI module out: in
-Slicer it is Scene.CommandLineRunner, in the tests a process. It has two methods:
+One run is: choose segments and settings, hand the options of the program voxplex to a runner, follow its progress, and give
+the finished mesh the names and colours of the segments. A runner carries the program out: in Slicer it is
+Program.ProgramRunner. It has two methods:
 
-    start(parameters, onChange)   begins, and calls onChange(RunState) until the state is final
-    cancel()                      asks for an end
+    start(options, onChange)   begins, and calls onChange(RunState) until the state is final
+    cancel()                   asks for an end
 """
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ class RunState:
     progress: float = 0.0  # 0 to 1
     message: str = ""  # the present stage; if it failed, why
     warnings: str = ""
-    results: dict = field(default_factory=dict)  # of a completed run: what the CLI module returned, texts by name
+    figures: dict = field(default_factory=dict)  # of a completed run: the program's statistics
 
 
 # --- Choices of segments ------------------------------------------------------------------------------------
@@ -144,15 +144,15 @@ def meshedSegments(segments):
     return [segment for segment in segments if segment.mesh]
 
 
-# --- Parameters of the CLI module ---------------------------------------------------------------------------
+# --- Options of the program ---------------------------------------------------------------------------------
 
 OF_VOLUMES = ("isovalue", "inside", "greySmoothing")
 OF_SEGMENTATIONS = ("quality", "smoothing")
 OF_GRADING = ("featureRatio", "largestFeature")
 
 
-def commandParameters(segments, settings, isosurface=False):
-    """The CLI module's parameters by name, without its files. Of an isosurface there is one segment, its inside. What
+def programOptions(segments, settings, isosurface=False):
+    """The options of the program, but for those that name files. Of an isosurface there is one segment, its inside. What
     does not count is left out: delta beside a number of elements, what belongs to grading without it, and so on. Raises
     MeshingError."""
     chosen = meshedSegments(segments)
@@ -161,21 +161,34 @@ def commandParameters(segments, settings, isosurface=False):
     for name in ("delta", "elements", "size", "smoothing"):
         if not (math.isfinite(getattr(settings, name)) and getattr(settings, name) >= 0.0):
             raise MeshingError("%s must be 0 or more" % name.capitalize())
-    sizes = ["%d=%r" % (label, segment.size) for label, segment in enumerate(chosen, 1) if segment.size > 0.0]
     idle = OF_SEGMENTATIONS if isosurface else OF_VOLUMES
     if settings.grading != "lfs":
         idle += OF_GRADING
     if settings.elements > 0:
         idle += ("delta",)
-    parameters = {name: value for name, value in asdict(settings).items() if name not in idle}
-    parameters.update(labelSizes=",".join(sizes), isosurface=isosurface,
-                      interfaceSizes=parseInterfaceSizes(settings.interfaceSizes, chosen))
-    return parameters
+    options = ["--label-size=%d=%r" % (label, segment.size) for label, segment in enumerate(chosen, 1) if segment.size > 0.0]
+    options += ["--interface-size=" + item for item in parseInterfaceSizes(settings.interfaceSizes, chosen)]
+    for name, parameter in PARAMETERS.items():
+        if name not in idle and name != "interfaceSizes":
+            options += _options(parameter, getattr(settings, name))
+    if settings.quality and "quality" not in idle:
+        options.append("--hausdorff")
+    return options
+
+
+def _options(parameter, value):
+    """Of a flag, if it is not as it is by default; of a number, unless it stands for none."""
+    name = "--" + (parameter["option"] or "smoothing")  # of grey values and of labels, it is one option
+    if parameter["kind"] == "flag":
+        return [name] if (value in (True, "on")) != (parameter["default"] == "on") else []
+    if value == 0 and parameter["default"] == "" and parameter["zero"]:
+        return []
+    return ["%s=%s" % (name, value)]
 
 
 def parseInterfaceSizes(text, chosen):
     """Interface sizes with names as the user types them, such as "Bone = 0.5; Bone : Muscle = 0.4; Skin : background = 2", with
-    labels as the CLI module wants them: "1=0.5,1:2=0.4,3:0=2". Raises MeshingError."""
+    labels as the program wants them: "1=0.5", "1,2=0.4", "3,0=2". Raises MeshingError."""
     labels = {"background": 0, **{segment.name: label for label, segment in enumerate(chosen, 1)}}
     items = []
     for item in filter(None, (part.strip() for part in text.split(";"))):
@@ -184,8 +197,8 @@ def parseInterfaceSizes(text, chosen):
         if not equals or pair is None or not parseSize(size) > 0.0:
             raise MeshingError("'%s' is not the size of an interface: write NAME = LENGTH, or NAME : NAME = LENGTH, with names of "
                                "segments that are meshed, or background" % item)
-        items.append(":".join(str(labels[name]) for name in pair) + "=%r" % parseSize(size))
-    return ",".join(items)
+        items.append(",".join(str(labels[name]) for name in pair) + "=%r" % parseSize(size))
+    return items
 
 
 def _splitNames(text, labels):
@@ -226,7 +239,7 @@ def measureLabels(mesh):
     """The number and the volume of the tetrahedra of each label. Raises MeshingError if it is no such mesh."""
     array = mesh.GetCellData().GetArray("Label") if mesh else None
     if array is None or mesh.GetNumberOfCells() == 0:
-        raise MeshingError("The module made no tetrahedra")
+        raise MeshingError("The program made no tetrahedra")
     if not mesh.IsHomogeneous() or mesh.GetCellType(0) != VTK_TETRA:
         raise MeshingError("The mesh has other cells than tetrahedra")
     labels = vtk_to_numpy(array)
@@ -250,24 +263,15 @@ def describeMesh(mesh, segments):
     return lines
 
 
-def describeQuality(results):
-    """Lines for the log about what the CLI module returned; none if it returned nothing."""
-    figures = {name: float(text) for name, text in results.items() if _isNumber(text)}
-    lines = []
-    if "smallestDihedralAngle" in figures:
-        lines.append("Dihedral angles from %(smallestDihedralAngle).1f to %(largestDihedralAngle).1f degrees, radius-edge ratio at "
-                     "most %(largestRadiusEdge).2f, angles of triangles from %(smallestFacetAngle).1f degrees" % figures)
-    if "hausdorffDistance" in figures:
+def describeQuality(figures):
+    """Lines for the log about the statistics of the program."""
+    lines = ["Dihedral angles from %(min_dihedral).1f to %(max_dihedral).1f degrees, radius-edge ratio at most "
+             "%(max_radius_edge).2f, angles of triangles from %(min_planar).1f degrees" % figures["quality"]]
+    if "hausdorff" in figures:
         lines.append("Hausdorff distance %.3g mm, %d non-manifold edges, volumes of segments off by up to %.2g %%" % (
-            figures["hausdorffDistance"], figures["nonManifoldEdges"], 100.0 * figures["volumeError"]))
+            figures["hausdorff"]["voxels"]["distance"], figures["topology"]["non_manifold_edges"],
+            100.0 * max(abs(label["volume_error"]) for label in figures["labels"].values())))
     return lines
-
-
-def _isNumber(text):
-    try:
-        return math.isfinite(float(text))
-    except ValueError:
-        return False
 
 
 # --- One run ------------------------------------------------------------------------------------------------
@@ -289,11 +293,11 @@ class MeshingLogic:
         """Begins a run. Raises MeshingError if the choices do not do, or another run is under way."""
         if self.isBusy:
             raise MeshingError("A mesh is being made: wait for it, or cancel it")
-        parameters = commandParameters(segments, settings, isosurface)
+        options = programOptions(segments, settings, isosurface)
         self.log("Meshing " + ", ".join(segment.name for segment in meshedSegments(segments)))
         self._change(RunState(Phase.RUNNING))
         try:
-            self.runner.start(parameters, self._onRunnerChange)
+            self.runner.start(options, self._onRunnerChange)
         except Exception as error:
             self._onRunnerChange(RunState(Phase.FAILED, message=str(error)))
             raise
@@ -312,7 +316,7 @@ class MeshingLogic:
         if state.warnings:
             self.log(state.warnings.strip())
         if state.phase is Phase.FAILED:
-            self.log("Failed: " + (state.message.strip() or "the module gave no reason"))
+            self.log("Failed: " + (state.message.strip() or "the program gave no reason"))
         elif state.phase is Phase.CANCELLED:
             self.log("Cancelled")
         self._change(state)

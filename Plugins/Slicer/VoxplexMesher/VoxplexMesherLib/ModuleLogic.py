@@ -19,7 +19,8 @@ from slicer.ScriptedLoadableModule import ScriptedLoadableModuleLogic
 
 from VoxplexMesherLib.Logic import (MeshingError, MeshingLogic, Phase, RunState, Settings, describeMesh, describeQuality,
                                     mergeChoices, storeChoices)
-from VoxplexMesherLib.Scene import CommandLineRunner, insideOf, readSegments, showMesh, showSurfaces
+from VoxplexMesherLib.Program import ProgramRunner
+from VoxplexMesherLib.Scene import insideOf, readSegments, showMesh, showSurfaces
 
 
 class VoxplexMesherLogic(ScriptedLoadableModuleLogic):
@@ -27,7 +28,7 @@ class VoxplexMesherLogic(ScriptedLoadableModuleLogic):
         ScriptedLoadableModuleLogic.__init__(self)
         self.log = logging.info  # called with each line
         self.onChange = lambda state: None  # called with each RunState
-        self.runner = CommandLineRunner()
+        self.runner = ProgramRunner()
         self.meshing = MeshingLogic(self.runner, log=lambda line: self.log(line), onChange=self._onChange)
         self._outputs = None
 
@@ -88,7 +89,7 @@ class VoxplexMesherLogic(ScriptedLoadableModuleLogic):
     def _show(self, state):
         meshNode, surfacesNode, segments = self._outputs
         try:
-            for line in describeMesh(meshNode.GetMesh(), segments) + describeQuality(state.results):
+            for line in describeMesh(meshNode.GetMesh(), segments) + describeQuality(state.figures):
                 self.log(line)
         except MeshingError as error:
             self.log("Failed: %s" % error)

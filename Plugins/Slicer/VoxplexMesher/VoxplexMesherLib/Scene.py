@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Slicer's side of a run: segmentation nodes, the CLI module, model nodes."""
+"""Slicer's side of a run: segmentation nodes, volumes, model nodes."""
+import numpy as np
 import slicer
 import vtk
 
-from VoxplexMesherLib.Logic import MeshingError, Phase, RunState, Segment, labelMesh, meshedSegments
+from VoxplexMesherLib.Logic import MeshingError, Segment, labelMesh, meshedSegments
 
 
 def readSegments(segmentationNode):
@@ -30,84 +31,53 @@ def isVolume(node):
     return node is not None and node.IsA("vtkMRMLScalarVolumeNode") and not node.IsA("vtkMRMLLabelMapVolumeNode")
 
 
-class CommandLineRunner:
-    """Runs the CLI module SegmentationToTetMesh on some segments of a segmentation, or on a volume.
-
-    The segments are exported into a temporary label map, in which later segments win where they overlap. Slicer
-    loads the results into the output nodes before the run counts as completed.
-    """
-
-    RESULTS = ("missingComponents", "smallestDihedralAngle", "largestDihedralAngle", "largestRadiusEdge", "smallestFacetAngle")
-    RESULTS_OF_COMPARISON = ("hausdorffDistance", "nonManifoldEdges", "volumeError")
-
-    def __init__(self):
-        self.cliNode = None
-        self.labelmapNode = None
-        self.observation = None
-        self.onChange = None
-        self.results = ()
-
-    def prepare(self, inputNode, segments, meshNode, surfacesNode=None):
-        """What the next start() works on: a segmentation node, or a volume node."""
-        self.inputs = (inputNode, segments, meshNode, surfacesNode)
-
-    def start(self, parameters, onChange):
-        inputNode, segments, meshNode, surfacesNode = self.inputs
-        if not hasattr(slicer.modules, "segmentationtotetmesh"):
-            raise MeshingError("The CLI module SegmentationToTetMesh is not loaded: add its folder to the module paths "
-                               "in the application settings, and restart")
-        self.onChange = onChange
-        self.results = self.RESULTS + (self.RESULTS_OF_COMPARISON if parameters.get("quality") else ())
-        if not isVolume(inputNode):
-            inputNode = self.labelmapNode = self._exportSegments(inputNode, segments)
-        nodes = {"inputLabels": inputNode, "outputMesh": meshNode}
-        if surfacesNode is not None:
-            nodes["outputSurfaces"] = surfacesNode
-        self.cliNode = slicer.cli.run(slicer.modules.segmentationtotetmesh, None, {**parameters, **nodes},
-                                      wait_for_completion=False, update_display=False)
-        self.observation = self.cliNode.AddObserver(vtk.vtkCommand.ModifiedEvent, self._onModified)
-
-    def cancel(self):
-        if self.cliNode is not None:
-            self.cliNode.Cancel()
-
-    def _exportSegments(self, segmentationNode, segments):
-        ids = vtk.vtkStringArray()
-        for segment in meshedSegments(segments):
-            ids.InsertNextValue(segment.id)
-        node = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLLabelMapVolumeNode", "Voxplex label map")
-        if not slicer.modules.segmentations.logic().ExportSegmentsToLabelmapNode(
-                segmentationNode, ids, node, None, slicer.vtkSegmentation.EXTENT_REFERENCE_GEOMETRY):
-            slicer.mrmlScene.RemoveNode(node)
-            raise MeshingError("The segments could not be exported into a label map")
-        return node
-
-    def _onModified(self, cliNode, event):
-        if cliNode.IsBusy():
-            self.onChange(RunState(Phase.RUNNING, cliNode.GetProgress() / 100.0, cliNode.GetStatusString()))
-            return
-        status, errors = cliNode.GetStatus(), cliNode.GetErrorText()
-        if status == cliNode.Cancelled:
-            state = RunState(Phase.CANCELLED)
-        elif status & cliNode.ErrorsMask:
-            state = RunState(Phase.FAILED, message=errors or cliNode.GetStatusString())
-        elif status & cliNode.Completed:
-            state = RunState(Phase.COMPLETED, 1.0, warnings=errors,
-                             results={name: cliNode.GetParameterAsString(name) for name in self.results})
-        else:
-            return  # before the start
-        self._cleanUp()
-        self.onChange(state)
-
-    def _cleanUp(self):
-        """The scene keeps the inputs and the outputs only."""
-        self.cliNode.RemoveObserver(self.observation)
-        displayNode = self.labelmapNode.GetDisplayNode() if self.labelmapNode else None
+def writeImage(images, inputNode, segments, path):
+    """Writes a volume, or the segments that are meshed, as NRRD; images is a module of the package voxplex."""
+    if isVolume(inputNode):
+        images.write_nrrd(_imageOf(images, inputNode), path, hidden_is_outside=False)
+        return
+    node = _exportSegments(inputNode, segments)
+    try:
+        images.write_nrrd(_imageOf(images, node), path, hidden_is_outside=False)
+    finally:
+        displayNode = node.GetDisplayNode()
         colorNode = displayNode.GetColorNode() if displayNode else None
-        for node in (self.cliNode, self.labelmapNode, colorNode):
-            if node is not None:
-                slicer.mrmlScene.RemoveNode(node)
-        self.cliNode = self.labelmapNode = self.observation = None
+        for temporary in filter(None, (node, displayNode, colorNode)):
+            slicer.mrmlScene.RemoveNode(temporary)
+
+
+def _exportSegments(segmentationNode, segments):
+    """A temporary label map, with labels 1, 2, ...; later segments win where they overlap."""
+    ids = vtk.vtkStringArray()
+    for segment in meshedSegments(segments):
+        ids.InsertNextValue(segment.id)
+    node = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLLabelMapVolumeNode", "Voxplex label map")
+    if not slicer.modules.segmentations.logic().ExportSegmentsToLabelmapNode(
+            segmentationNode, ids, node, None, slicer.vtkSegmentation.EXTENT_REFERENCE_GEOMETRY):
+        slicer.mrmlScene.RemoveNode(node)
+        raise MeshingError("The segments could not be exported into a label map")
+    return node
+
+
+def _imageOf(images, volumeNode):
+    """Slicer's scene is in RAS coordinates, files are in LPS."""
+    matrix = vtk.vtkMatrix4x4()
+    volumeNode.GetIJKToRASMatrix(matrix)
+    toLPS = np.array([[sign * matrix.GetElement(row, column) for column in range(4)]
+                      for row, sign in enumerate((-1.0, -1.0, 1.0))])
+    spacing = np.linalg.norm(toLPS[:, :3], axis=0)
+    return images.Image(slicer.util.arrayFromVolume(volumeNode), spacing=spacing, origin=toLPS[:, 3],
+                        direction=toLPS[:, :3] / spacing)
+
+
+def loadMesh(modelNode, path):
+    """What the program wrote in RAS coordinates."""
+    reader = vtk.vtkXMLPolyDataReader() if path.endswith(".vtp") else vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(path)
+    reader.Update()
+    mesh = reader.GetOutput()
+    mesh.GetFieldData().RemoveArray("SPACE")  # Slicer writes its own, but not beside this one
+    modelNode.SetAndObserveMesh(mesh)
 
 
 def makeColorNode(name, segments):
@@ -120,7 +90,8 @@ def makeColorNode(name, segments):
     slicer.mrmlScene.AddNode(node)
     node.UnRegister(None)
     node.SetNumberOfColors(len(chosen) + 1)
-    node.SetNamesInitialised(True)
+    if not hasattr(node, "SetColorDefined"):  # which newer versions have in its place
+        node.SetNamesInitialised(True)
     node.SetColor(0, "background", 0.0, 0.0, 0.0, 0.0)
     for label, segment in enumerate(chosen, 1):
         node.SetColor(label, segment.name, *segment.color, 1.0)

@@ -130,7 +130,7 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.addBox(form, name + kind, parameter["label"] + UNITS.get(parameter["unit"], "") + ":", box, signal, toolTip)
 
     def makeSpinBox(self, parameter):
-        """With the range that the CLI module takes; 0 where no value need be given."""
+        """With the range that the program takes; 0 where no value need be given."""
         isWhole = parameter["kind"] == "whole"
         box, number, largest = (qt.QSpinBox(), int, LARGEST_WHOLE) if isWhole else (qt.QDoubleSpinBox(), float, LARGEST_REAL)
         if not isWhole:

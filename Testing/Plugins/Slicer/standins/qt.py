@@ -3,8 +3,10 @@
 """A stand-in for PythonQt's qt: the few widgets that the module uses, without a screen.
 
 Each class knows the properties, methods and signals of the real one that are used here, and nothing else: another name is
-an AttributeError, as it would be in Slicer.
+an AttributeError, as it would be in Slicer. Processes are real ones.
 """
+import subprocess
+import types
 
 
 class Object:
@@ -320,3 +322,59 @@ class QTableWidget(Object):
 
     def item(self, row, column):
         return self.items.get((row, column))
+
+
+class QProcess(Object):
+    """It is read, a line at a time, when events are processed: processEvents()."""
+    SIGNALS = ("readyReadStandardError()", "finished(int,QProcess::ExitStatus)", "errorOccurred(QProcess::ProcessError)")
+    NormalExit, CrashExit = 0, 1
+    FailedToStart, Crashed = 0, 1
+    running = []  # processes
+    commands = []  # that were started
+
+    def __init__(self):
+        super().__init__()
+        for name in ("process", "environment"):
+            self._set(name, None)
+        self._set("text", b"")
+
+    def setProcessEnvironment(self, environment):
+        self._set("environment", environment)
+
+    def start(self, program, arguments):
+        if not all(isinstance(text, str) for text in [program, *arguments]):
+            raise TypeError("text is wanted: %s" % [program, *arguments])
+        self.commands.append([program, *arguments])
+        try:
+            self._set("process", subprocess.Popen(self.commands[-1], env=self.environment, stdout=subprocess.DEVNULL,
+                                                  stderr=subprocess.PIPE))
+        except OSError:
+            self.emit("errorOccurred(QProcess::ProcessError)", self.FailedToStart)
+            return
+        self.running.append(self)
+
+    def readAllStandardError(self):
+        text, _ = self.text, self._set("text", b"")
+        return types.SimpleNamespace(data=lambda: text)
+
+    def kill(self):
+        if self in self.running:
+            self.process.kill()
+
+    def proceed(self):
+        line = self.process.stderr.readline()
+        self._set("text", self.text + line)
+        if line:
+            self.emit("readyReadStandardError()")
+            return
+        status = self.process.wait()
+        self.process.stderr.close()
+        self.running.remove(self)
+        if status < 0:
+            self.emit("errorOccurred(QProcess::ProcessError)", self.Crashed)
+        self.emit("finished(int,QProcess::ExitStatus)", max(status, 0), self.NormalExit if status >= 0 else self.CrashExit)
+
+
+def processEvents():
+    for process in list(QProcess.running):
+        process.proceed()

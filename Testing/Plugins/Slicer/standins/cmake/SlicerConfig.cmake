@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # A stand-in for Slicer's CMake package: the variables and macros that extensions use, with VTK and ITK of
 # the system. The macros check what they are given.
 set(Slicer_CLIMODULES_BIN_DIR "lib/Slicer-5.8/cli-modules")

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # What include(${Slicer_USE_FILE}) brings: the macros for modules. See SlicerConfig.cmake.
 set(EXTENSION_NAME "${PROJECT_NAME}")
 option(BUILD_TESTING "Build the tests of the extension" ON)

@@ -1,24 +1,24 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """A stand-in for Slicer's Python module: enough of it to run the scripted module from Apply to the coloured mesh, with
-the real CLI module. It knows the names that are used and no others.
+the real program. It knows the names that are used and no others.
 
 The geometry of label maps, which the real one takes from the segmentation, is that of labelmapGeometry.
 """
 import os
+import tempfile
 import types
 
 import images
 import qt
 
 from slicer import nodes, util  # noqa: F401
-from slicer.commandline import Module, Runner
 from slicer.nodes import vtkMRMLDisplayNode, vtkMRMLNode, vtkMRMLScene, vtkSegmentation  # noqa: F401
 
 labelmapGeometry = images.Geometry()
 mrmlScene = vtkMRMLScene()
-cli = Runner(mrmlScene)
-app = types.SimpleNamespace(processEvents=cli.processEvents)
+app = types.SimpleNamespace(processEvents=qt.processEvents, temporaryPath=tempfile.gettempdir(),
+                            startupEnvironment=lambda: {"PATH": os.defpath})
 
 
 def _exportSegments(segmentationNode, ids, labelmapNode, referenceNode, extent):
@@ -27,9 +27,7 @@ def _exportSegments(segmentationNode, ids, labelmapNode, referenceNode, extent):
 
 
 _segmentationsLogic = types.SimpleNamespace(ExportSegmentsToLabelmapNode=_exportSegments)
-modules = types.SimpleNamespace(
-    segmentations=types.SimpleNamespace(logic=lambda: _segmentationsLogic),
-    segmentationtotetmesh=Module(os.environ["VOXPLEX_SLICER_CLI"]))
+modules = types.SimpleNamespace(segmentations=types.SimpleNamespace(logic=lambda: _segmentationsLogic))
 
 
 class qMRMLNodeComboBox(qt.Object):

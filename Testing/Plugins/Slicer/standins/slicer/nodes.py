@@ -138,6 +138,10 @@ class vtkMRMLSegmentationNode(vtkMRMLNode):
     def CreateDefaultDisplayNodes(self):
         pass
 
+    def SetReferenceImageGeometryParameterFromVolumeNode(self, volumeNode):
+        if (volumeNode.image.GetDimensions(), volumeNode.origin) != ((91, 31, 31), (-15.0, -15.0, -15.0)):
+            raise AssertionError("the grid is another one")
+
     def AddSegmentFromClosedSurfaceRepresentation(self, surface, name, color):
         """The ball in the surface's bounding box, on a grid of 1 mm from -15 to 75 in x, -15 to 15 in y and z."""
         bounds = np.array(surface.GetBounds()).reshape(3, 2)
@@ -222,13 +226,29 @@ class vtkMRMLModelNode(vtkMRMLDisplayableNode):
     def GetMesh(self):
         return self.mesh
 
+    def SetAndObserveMesh(self, mesh):
+        self.mesh = mesh
+
 
 class vtkMRMLScalarVolumeNode(vtkMRMLDisplayableNode):
     """A volume: its voxels, and where they lie."""
 
     def __init__(self, name=""):
         super().__init__(name)
-        self.array = self.geometry = None
+        self.array = self.geometry = self.image = self.origin = None
+
+    def SetAndObserveImageData(self, image):
+        self.image = image
+
+    def SetOrigin(self, *origin):
+        self.origin = origin
+
+    def GetIJKToRASMatrix(self, matrix):
+        """The geometry is in LPS coordinates, as in files."""
+        columns = np.column_stack([self.geometry.direction * self.geometry.spacing, self.geometry.origin])
+        for row, sign in enumerate((-1, -1, 1)):
+            for column in range(4):
+                matrix.SetElement(row, column, sign * columns[row, column])
 
 
 class vtkMRMLLabelMapVolumeNode(vtkMRMLScalarVolumeNode):
