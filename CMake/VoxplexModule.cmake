@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-# Declares the module VTK::Voxplex. Read by the root CMakeLists.txt when VTK's build system enters it.
+# Declares the module VTK::Voxplex. Read by the root CMakeLists.txt when VTK's build system enters it, and for the ParaView
+# plugin from a folder of the build.
 #
 # The objects of the kernel and of the table of parameters go into the module's library: nothing of them is
 # installed, neither a library nor a header, and their symbols stay hidden.
@@ -11,62 +12,65 @@ if (NOT COMMAND voxplex_skip) # the tests say through it what they leave out
   endfunction ()
 endif ()
 
+get_filename_component(voxplex_root "${CMAKE_CURRENT_LIST_DIR}" DIRECTORY)
+set(voxplex_filters "${voxplex_root}/Filters")
+
 find_package(Threads REQUIRED)
 find_package(CGAL REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 foreach (voxplex_part IN ITEMS Kernel Parameters)
   if (NOT TARGET Voxplex${voxplex_part})
-    add_subdirectory(${voxplex_part})
+    add_subdirectory("${voxplex_root}/${voxplex_part}" ${voxplex_part})
   endif ()
 endforeach ()
 
 vtk_module_add_module(VTK::Voxplex
   CLASSES
-    Filters/vtkImageToPentatopeMeshFilter
-    Filters/vtkImageToSimplexMeshFilter
-    Filters/vtkImageToTetMeshFilter
-    Filters/vtkMeshingStatistics
-    Filters/vtkPentatopeMeshTimeSlice
-    Filters/vtkSimplexMeshQuality
+    ${voxplex_filters}/vtkImageToPentatopeMeshFilter
+    ${voxplex_filters}/vtkImageToSimplexMeshFilter
+    ${voxplex_filters}/vtkImageToTetMeshFilter
+    ${voxplex_filters}/vtkMeshingStatistics
+    ${voxplex_filters}/vtkPentatopeMeshTimeSlice
+    ${voxplex_filters}/vtkSimplexMeshQuality
   PRIVATE_HEADERS
-    Filters/Private/ChosenArray.h
-    Filters/Private/ElementSizes.h
-    Filters/Private/Execution.h
-    Filters/Private/FiguresJson.h
-    Filters/Private/FrameGathering.h
-    Filters/Private/HiddenVoxels.h
-    Filters/Private/LabelledMesh.h
-    Filters/Private/Lists.h
-    Filters/Private/MeshOutput.h
-    Filters/Private/MeshingMessages.h
-    Filters/Private/OutputArrays.h
-    Filters/Private/QualityRun.h
-    Filters/Private/QualityTables.h
-    Filters/Private/SimplexMeshRun.h
-    Filters/Private/SmpThreads.h
+    ${voxplex_filters}/Private/ChosenArray.h
+    ${voxplex_filters}/Private/ElementSizes.h
+    ${voxplex_filters}/Private/Execution.h
+    ${voxplex_filters}/Private/FiguresJson.h
+    ${voxplex_filters}/Private/FrameGathering.h
+    ${voxplex_filters}/Private/HiddenVoxels.h
+    ${voxplex_filters}/Private/LabelledMesh.h
+    ${voxplex_filters}/Private/Lists.h
+    ${voxplex_filters}/Private/MeshOutput.h
+    ${voxplex_filters}/Private/MeshingMessages.h
+    ${voxplex_filters}/Private/OutputArrays.h
+    ${voxplex_filters}/Private/QualityRun.h
+    ${voxplex_filters}/Private/QualityTables.h
+    ${voxplex_filters}/Private/SimplexMeshRun.h
+    ${voxplex_filters}/Private/SmpThreads.h
   SOURCES
-    Filters/Private/ChosenArray.cxx
-    Filters/Private/ElementSizes.cxx
-    Filters/Private/HiddenVoxels.cxx
-    Filters/Private/LabelledMesh.cxx
-    Filters/Private/MeshOutput.cxx
-    Filters/Private/MeshingJson.cxx
-    Filters/Private/MeshingMessages.cxx
-    Filters/Private/PentatopeOutput.cxx
-    Filters/Private/QualityJson.cxx
-    Filters/Private/QualityRun.cxx
-    Filters/Private/QualityTables.cxx
-    Filters/Private/SmpThreads.cxx
+    ${voxplex_filters}/Private/ChosenArray.cxx
+    ${voxplex_filters}/Private/ElementSizes.cxx
+    ${voxplex_filters}/Private/HiddenVoxels.cxx
+    ${voxplex_filters}/Private/LabelledMesh.cxx
+    ${voxplex_filters}/Private/MeshOutput.cxx
+    ${voxplex_filters}/Private/MeshingJson.cxx
+    ${voxplex_filters}/Private/MeshingMessages.cxx
+    ${voxplex_filters}/Private/PentatopeOutput.cxx
+    ${voxplex_filters}/Private/QualityJson.cxx
+    ${voxplex_filters}/Private/QualityRun.cxx
+    ${voxplex_filters}/Private/QualityTables.cxx
+    ${voxplex_filters}/Private/SmpThreads.cxx
     $<TARGET_OBJECTS:VoxplexExact>
     $<FILTER:$<TARGET_OBJECTS:VoxplexKernel>,EXCLUDE,[.]gch$> # a precompiled header is no object
     $<TARGET_OBJECTS:VoxplexParameters>)
 
 vtk_module_include(VTK::Voxplex
   PUBLIC
-    "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/Filters>"
+    "$<BUILD_INTERFACE:${voxplex_filters}>"
   PRIVATE
-    "${CMAKE_CURRENT_SOURCE_DIR}/Kernel"
-    "${CMAKE_CURRENT_SOURCE_DIR}/Parameters") # and Filters/, for Private/
+    "${voxplex_root}/Kernel"
+    "${voxplex_root}/Parameters") # and Filters/, for Private/
 
 # The kernel's headers want C++20; the module's own headers do not.
 vtk_module_compile_features(VTK::Voxplex
@@ -74,7 +78,7 @@ vtk_module_compile_features(VTK::Voxplex
     cxx_std_20)
 
 # vtkSMPTools.h of VTK 9.0 and 9.1 is not valid C++20.
-set_source_files_properties(Filters/Private/SmpThreads.cxx PROPERTIES
+set_source_files_properties(${voxplex_filters}/Private/SmpThreads.cxx PROPERTIES
   COMPILE_OPTIONS "${CMAKE_CXX17_STANDARD_COMPILE_OPTION}")
 
 # As in the kernel: inline functions of its headers are compiled here, too.

@@ -1,7 +1,8 @@
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
 # Builds the ParaView plugin and its tests, against ParaView and the VTK that it brings; nothing else.
 #
-# The plugin takes the modules VTK::Voxplex and VTK::VoxplexIO in: VTK's build system re-enters the root
-# CMakeLists.txt for the former, as in CMake/VoxplexBuildModule.cmake.
+# The plugin takes the modules VTK::Voxplex and VTK::VoxplexIO in (Plugins/ParaView/CMakeLists.txt).
 
 find_package(ParaView 5.11 QUIET)
 voxplex_require("${ParaView_FOUND}" "ParaView 5.11 with its development files"
@@ -30,6 +31,19 @@ paraview_plugin_build(
   PLUGINS_COMPONENT    paraview
   TARGET_COMPONENT     paraview
   INSTALL_HEADERS      OFF)
+
+# No folder is below itself: Qt 6 walks all of them.
+function (voxplex_check_folders folder)
+  if (folder IN_LIST ARGN)
+    message(FATAL_ERROR "The folder ${folder} is below itself")
+  endif ()
+  get_property(_voxplex_below DIRECTORY "${folder}" PROPERTY SUBDIRECTORIES)
+  foreach (_voxplex_folder IN LISTS _voxplex_below)
+    voxplex_check_folders("${_voxplex_folder}" "${folder}" ${ARGN})
+  endforeach ()
+endfunction ()
+voxplex_check_folders("${CMAKE_SOURCE_DIR}")
+
 if (VOXPLEX_BUILD_TESTING)
   add_subdirectory(Testing/Plugins/ParaView)
 endif ()

@@ -15,7 +15,9 @@
 #include "vtkNew.h"
 #include "vtkSMSourceProxy.h"
 
-#include <QCoreApplication>
+#include <QApplication>
+#include <QInputEvent>
+#include <QWidget>
 
 namespace
 {
@@ -47,7 +49,12 @@ void pqVoxplexMeshing::startup()
   this->connect(
     progress, SIGNAL(progress(const QString&, int)), SLOT(onProgress(const QString&, int)));
   this->connect(progress, SIGNAL(progressEndEvent()), SLOT(onProgressEnd()));
-  this->connect(progress, SIGNAL(abort()), SLOT(onAbort()));
+  // From 6.1 on the signal is gone: ParaView handles events itself while any filter executes, and stops it.
+  this->HandlesButton = progress->metaObject()->indexOfSignal("abort()") >= 0;
+  if (this->HandlesButton)
+  {
+    this->connect(progress, SIGNAL(abort()), SLOT(onAbort()));
+  }
   this->connect(core->getServerManagerModel(), SIGNAL(dataUpdated(pqPipelineSource*)),
     SLOT(onDataUpdated(pqPipelineSource*)));
 }
@@ -70,32 +77,86 @@ void pqVoxplexMeshing::onProgress(const QString& message, int percent)
   {
     return;
   }
-  if (!this->CanAbort)
+  pqProgressManager* const progress = pqApplicationCore::instance()->getProgressManager();
+  if (!this->Executes)
   {
-    this->CanAbort = true;
-    pqApplicationCore::instance()->getProgressManager()->setEnableAbort(true);
+    this->Executes = true;
+    QCoreApplication::instance()->installEventFilter(this);
+    if (this->HandlesButton)
+    {
+      progress->setEnableAbort(true);
+    }
   }
-  if (percent >
-    0) // as newer versions of ParaView do; the progress manager keeps all but the button from mouse and keys
+  // With a dialog open nobody can press the button. Nothing is handled at 0: as in ParaView.
+  if (this->HandlesButton && percent > 0 && QApplication::activeModalWidget() == nullptr)
   {
     this->HandlesEvents = true;
-    QCoreApplication::processEvents();
+    // The progress manager keeps the mouse from the button's window, and so from the button.
+    const bool unblocked = progress->unblockEvents(true);
+    QCoreApplication::processEvents(QEventLoop::ExcludeSocketNotifiers);
+    progress->unblockEvents(unblocked);
     this->HandlesEvents = false;
   }
 }
 
+bool pqVoxplexMeshing::eventFilter(QObject* object, QEvent* event)
+{
+  // Calls that are queued cannot wait. If one has opened a dialog, the user must be able to close it.
+  if (QApplication::activeModalWidget() != nullptr ||
+    pqApplicationCore::instance()->getProgressManager()->nonBlockableObjects().contains(object))
+  {
+    return false;
+  }
+  const QEvent::Type type = event->type();
+  const bool renders = type == QEvent::Paint && object->inherits("QOpenGLWidget"); // which updates
+  if (type == QEvent::Timer || renders)
+  {
+    const Waiting waiting(object, renders ? 0 : static_cast<QTimerEvent*>(event)->timerId());
+    if (!this->Postponed.contains(waiting))
+    {
+      this->Postponed.append(waiting);
+    }
+    return true;
+  }
+  if (type == QEvent::Close || type == QEvent::Drop)
+  {
+    event->ignore();
+    return true;
+  }
+  // Windows hand input to their widgets, of which only the button gets it.
+  return type == QEvent::Shortcut ||
+    (dynamic_cast<QInputEvent*>(event) != nullptr && !object->isWindowType());
+}
+
 void pqVoxplexMeshing::onProgressEnd()
 {
-  if (this->CanAbort)
+  if (!this->Executes)
   {
-    this->CanAbort = false;
+    return;
+  }
+  this->Executes = false;
+  QCoreApplication::instance()->removeEventFilter(this);
+  if (this->HandlesButton)
+  {
     pqApplicationCore::instance()->getProgressManager()->setEnableAbort(false);
   }
+  for (const Waiting& waiting : this->Postponed)
+  {
+    if (waiting.second != 0 && waiting.first)
+    {
+      QCoreApplication::postEvent(waiting.first, new QTimerEvent(waiting.second));
+    }
+    else if (auto* const widget = qobject_cast<QWidget*>(waiting.first))
+    {
+      widget->update();
+    }
+  }
+  this->Postponed.clear();
 }
 
 void pqVoxplexMeshing::onAbort()
 {
-  if (!this->CanAbort)
+  if (!this->Executes)
   {
     return;
   }

@@ -4,10 +4,12 @@
  * @class   pqVoxplexMeshing
  * @brief   what the plugin adds to ParaView's window besides filters
  *
- * - Abort: ParaView 5.11 shows the button beside its progress bar only while it saves animations, and the button
+ * - Abort: until version 6.0 ParaView shows the button beside its progress bar only while it saves animations, and the button
  *   reaches no filter. While a filter of the plugin executes in ParaView's own process, this shows the
- *   button, lets the window handle events, and stops the filter when the button is pressed. With a
+ *   button, handles its events, and stops the filter when the button is pressed. With a
  *   remote server that is not possible: the client then waits for the server.
+ * - Nothing but the button: what else Qt has to do while that filter executes would run inside it. Timers and
+ *   pictures of render views wait for its end; input to the rest of the window is lost.
  * - Names and colours of labels: when a filter of the plugin has made a mesh, or when a source has data that carries them, the colour maps of the arrays
  *   `Label` and `Labels` get them (vtkSMLabelColorsProxy). This happens once for each table of labels, so that what the user
  *   changes in a colour map stays.
@@ -17,7 +19,10 @@
 
 #include "vtkPVLabelInformation.h"
 
+#include <QList>
 #include <QObject>
+#include <QPair>
+#include <QPointer>
 
 class pqPipelineSource;
 
@@ -32,6 +37,9 @@ public:
   void startup();
   void shutdown();
 
+  /** Of the application, while a filter executes. */
+  bool eventFilter(QObject* object, QEvent* event) override;
+
 private Q_SLOTS:
   void onProgress(const QString& message, int percent);
   void onProgressEnd();
@@ -41,8 +49,13 @@ private Q_SLOTS:
 private:
   Q_DISABLE_COPY(pqVoxplexMeshing)
 
-  bool CanAbort = false;
+  using Waiting =
+    QPair<QPointer<QObject>, int>; ///< an object and its timer, or 0: a widget and its picture
+
+  bool HandlesButton = false; ///< ParaView leaves the button to this
+  bool Executes = false;
   bool HandlesEvents = false;
+  QList<Waiting> Postponed;
   vtkPVLabelInformation::LabelMap Applied; ///< the table of labels that the colour maps got last
 };
 

@@ -16,6 +16,7 @@
 #include "pqServer.h"
 #include "pqServerManagerModel.h"
 
+#include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
@@ -30,6 +31,7 @@
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTransferFunctionManager.h"
 #include "vtkSMViewProxy.h"
+#include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 #include "vtkXMLImageDataWriter.h"
 
@@ -45,6 +47,8 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
+#include <QProcess>
+#include <QPushButton>
 #include <QScreen>
 #include <QScrollArea>
 #include <QTimer>
@@ -64,6 +68,13 @@ const char QualityLabel[] = "Segmentation Mesh Quality";
 QString textOf(const QAction* action)
 {
   return action->text().remove('&');
+}
+/** A click of the user, through the X server. */
+void click(const QWidget* widget)
+{
+  const QPoint at = widget->mapToGlobal(widget->rect().center());
+  QProcess::startDetached(
+    "xdotool", { "mousemove", QString::number(at.x()), QString::number(at.y()), "click", "1" });
 }
 /** An image of one label, 3, that is called liver. */
 void writeNamedImage(const QString& path)
@@ -139,6 +150,8 @@ void pqVoxplexWindowTest::run()
     this->testPanel();
     this->testColors();
     this->takePicture();
+    this->testWaiting();
+    this->testQueued();
     this->testAbort();
   }
   std::cout << (this->Failures ? "checks failed" : "all checks passed") << std::endl;
@@ -502,7 +515,7 @@ void pqVoxplexWindowTest::takePicture()
   pqActiveObjects::instance().setActiveSource(this->Mesher);
   auto* const clipped = vtkSMPVRepresentationProxy::SafeDownCast(
     clip->getOutputPort(0)->getRepresentation(view)->getProxy());
-  vtkSMPVRepresentationProxy::HideScalarBarIfNotNeeded(clipped, view->getProxy());
+  clipped->HideScalarBarIfNotNeeded(view->getProxy());
   clipped->SetScalarBarVisibility(view->getProxy(), false);
   vtkSMPropertyHelper(clipped, "Representation").Set("Surface With Edges");
   const double edges[] = { 0.2, 0.2, 0.2 };
@@ -516,34 +529,160 @@ void pqVoxplexWindowTest::takePicture()
 }
 
 //----------------------------------------------------------------------------------------------------
+void pqVoxplexWindowTest::onStart()
+{
+  ++this->Executions;
+}
+
+void pqVoxplexWindowTest::onEnd()
+{
+  --this->Executions;
+}
+
+/** What is due while the filter executes waits for its end. */
+void pqVoxplexWindowTest::testWaiting()
+{
+  pqView* const view = pqActiveObjects::instance().activeView();
+  if (this->Mesher == nullptr || view == nullptr)
+  {
+    return;
+  }
+  vtkSmartPointer<vtkSMSourceProxy> surface;
+  surface.TakeReference(vtkSMSourceProxy::SafeDownCast(
+    this->Mesher->proxyManager()->NewProxy("filters", "DataSetSurfaceFilter")));
+  vtkSMPropertyHelper(surface, "Input").Set(this->Mesher->getProxy());
+  surface->UpdateVTKObjects();
+
+  int dialogs = 0, updates = 0;
+  QStringList inside;
+  const auto note = [&](const char* what)
+  {
+    if (this->Executions > 0)
+    {
+      inside << what;
+    }
+  };
+  QTimer dialogTimer, updateTimer;
+  this->connect(&dialogTimer, &QTimer::timeout, this,
+    [&]
+    {
+      note("a dialog");
+      ++dialogs;
+      QDialog dialog(this->Window);
+      QTimer::singleShot(0, &dialog, SLOT(reject()));
+      dialog.exec();
+    });
+  this->connect(&updateTimer, &QTimer::timeout, this,
+    [&]
+    {
+      note("an update");
+      ++updates;
+      surface->UpdatePipeline();
+    });
+  QObject during;
+  bool started = false;
+  this->connect(view, &pqView::beginRender, &during, [&] { note("a picture"); });
+  this->connect(pqApplicationCore::instance()->getProgressManager(), &pqProgressManager::progress,
+    &during,
+    [&]
+    {
+      if (this->Executions > 0 && !started)
+      {
+        started = true;
+        for (QTimer* timer : { &dialogTimer, &updateTimer })
+        {
+          timer->setSingleShot(true);
+          timer->start(1);
+        }
+        this->Window->resize(this->Window->size() + QSize(20, 20));
+      }
+    });
+  vtkObject* const algorithm =
+    vtkObject::SafeDownCast(this->Mesher->getProxy()->GetClientSideObject());
+  const unsigned long tags[] = { algorithm->AddObserver(
+                                   vtkCommand::StartEvent, this, &pqVoxplexWindowTest::onStart),
+    algorithm->AddObserver(vtkCommand::EndEvent, this, &pqVoxplexWindowTest::onEnd) };
+  vtkSMPropertyHelper(this->Mesher->getProxy(), "Delta").Set(2.0);
+  this->apply();
+  for (const unsigned long tag : tags)
+  {
+    algorithm->RemoveObserver(tag);
+  }
+  this->check(started, "progress while the filter executes");
+  this->check(inside.isEmpty(), "inside the filter: " + inside.join(", "));
+  this->check(dialogs == 1 && updates == 1, "the timers when it has ended");
+  this->check(surface->GetDataInformation()->GetNumberOfCells() > 1000, "what a timer updates");
+  this->check(
+    this->Mesher->getOutputPort(0)->getDataInformation()->GetNumberOfCells() > 100000, "the mesh");
+  this->Window->resize(this->Window->size() - QSize(20, 20));
+  this->wait(300);
+}
+
+/** Only calls that are queued do not wait: if one opens a dialog, that can be closed. */
+void pqVoxplexWindowTest::testQueued()
+{
+  if (this->Mesher == nullptr)
+  {
+    return;
+  }
+  QObject during;
+  bool started = false;
+  this->connect(pqApplicationCore::instance()->getProgressManager(), &pqProgressManager::progress,
+    &during,
+    [&]
+    {
+      if (!started)
+      {
+        started = true;
+        QMetaObject::invokeMethod(
+          this, &pqVoxplexWindowTest::clickDialogAway, Qt::QueuedConnection);
+      }
+    });
+  vtkSMPropertyHelper(this->Mesher->getProxy(), "Delta").Set(2.1);
+  this->apply();
+}
+
+void pqVoxplexWindowTest::clickDialogAway()
+{
+  QDialog dialog(this->Window);
+  QPushButton button("Close", &dialog);
+  this->connect(&button, &QPushButton::clicked, &dialog, &QDialog::accept);
+  QTimer clicks;
+  this->connect(&clicks, &QTimer::timeout, &dialog, [&] { click(&button); });
+  clicks.start(500);
+  QTimer::singleShot(60000, &dialog, SLOT(reject())); // only where the clicks do not arrive
+  this->check(dialog.exec() == QDialog::Accepted, "a dialog inside the filter can be closed");
+}
+
 void pqVoxplexWindowTest::testAbort()
 {
   if (this->Mesher == nullptr)
   {
     return;
   }
+  auto* const button = this->Window->findChild<QToolButton*>("AbortButton");
+  QApplication::setDoubleClickInterval(0); // each click is one
   bool pressed = false;
-  QTimer timer; // its events are handled while the filter executes
-  this->connect(&timer, &QTimer::timeout, this,
+  QObject during;
+  if (button)
+  {
+    this->connect(button, &QToolButton::pressed, &during, [&] { pressed = true; });
+  }
+  this->connect(pqApplicationCore::instance()->getProgressManager(), &pqProgressManager::progress,
+    &during,
     [&]
     {
-      for (QToolButton* button : this->Window->findChildren<QToolButton*>())
+      if (!pressed && button && button->isVisible() && button->isEnabled())
       {
-        if (button->objectName().contains("abort", Qt::CaseInsensitive) && button->isVisible() &&
-          button->isEnabled() && !pressed)
-        {
-          pressed = true;
-          button->click();
-        }
+        this->Window->raise(); // above ParaView's messages
+        click(button);
       }
     });
-  timer.start(50);
   vtkSMPropertyHelper(this->Mesher->getProxy(), "Delta")
     .Set(0.7); // minutes, if it were not stopped
   vtkSMPropertyHelper(this->Mesher->getProxy(), "NumberOfThreads").Set(1);
   this->apply();
-  timer.stop();
-  this->check(pressed, "the Abort button shows while the filter executes");
+  this->check(pressed, "the Abort button can be pressed while the filter executes");
   this->check(this->Mesher->getOutputPort(0)->getDataInformation()->GetNumberOfCells() == 0,
     "nothing comes out of a filter that was stopped");
   vtkSMPropertyHelper(this->Mesher->getProxy(), "Delta").Set(5.0);

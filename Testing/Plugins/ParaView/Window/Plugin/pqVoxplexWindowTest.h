@@ -47,8 +47,13 @@ private:
   void testDependentProperties();
   void testColors();
   void takePicture();
+  void testWaiting();
+  void testQueued();
+  void clickDialogAway();
   void testAbort();
 
+  void onStart();
+  void onEnd();
   /** Shows Filters and Filters > Voxplex, and saves the window meanwhile. */
   void openMenu(const QString& picture);
   QMenu* findMenu() const;
@@ -66,6 +71,7 @@ private:
   QMainWindow* Window = nullptr;
   pqPipelineSource* Reader = nullptr;
   pqPipelineSource* Mesher = nullptr;
+  int Executions = 0; ///< of the Mesher, now
   int Failures = 0;
 };
 
