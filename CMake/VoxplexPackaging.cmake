@@ -17,6 +17,27 @@ install(
   DESTINATION "${_voxplex_doc}"
   COMPONENT   documentation)
 
+# The manual page is what `voxplex --help` prints; commands in it keep their lines.
+find_program(VOXPLEX_HELP2MAN help2man)
+mark_as_advanced(VOXPLEX_HELP2MAN)
+if (TARGET voxplex AND VOXPLEX_HELP2MAN)
+  set(_voxplex_page "${CMAKE_CURRENT_BINARY_DIR}/voxplex.1")
+  add_custom_command(OUTPUT "${_voxplex_page}.gz"
+    COMMAND "${VOXPLEX_HELP2MAN}" --no-info --name "label images to conforming simplex meshes"
+      --output "${_voxplex_page}" "$<TARGET_FILE:voxplex>"
+    COMMAND sed -i "s/^voxplex .*/.EX\\n&\\n.EE/" "${_voxplex_page}"
+    COMMAND gzip -9 -n -f "${_voxplex_page}"
+    DEPENDS voxplex
+    VERBATIM)
+  add_custom_target(VoxplexManualPage ALL DEPENDS "${_voxplex_page}.gz")
+  install(
+    FILES       "${_voxplex_page}.gz"
+    DESTINATION "${CMAKE_INSTALL_MANDIR}/man1"
+    COMPONENT   documentation)
+else ()
+  voxplex_skip("the manual page" "the program is not built, or help2man was not found (apt-get install help2man)")
+endif ()
+
 # --- What Debian wants besides --------------------------------------------------------------------
 
 set(VOXPLEX_PACKAGE_MAINTAINER "The Voxplex developers <voxplex@example.org>" CACHE STRING
@@ -69,6 +90,7 @@ files.")
 set(CPACK_RESOURCE_FILE_LICENSE "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE")
 set(CPACK_PACKAGING_INSTALL_PREFIX "/usr")
 set(CPACK_STRIP_FILES ON)
+set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_SOURCE_DIR}/CMake/debian/before-packing.cmake")
 
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION "science")
@@ -81,7 +103,8 @@ if (VOXPLEX_HAVE_PYTHON)
   # The wrapped modules are for one version of Python.
   math(EXPR _voxplex_next_python "${Python3_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PACKAGE_DEPENDS
-    "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${_voxplex_next_python}), python3-vtk9, python3-numpy")
+    "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${_voxplex_next_python}), python3-numpy")
+  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-vtk9") # for the wrapped classes, not for functions
   list(APPEND CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA # byte code: made at installation, removed with the package
     "${CMAKE_CURRENT_SOURCE_DIR}/CMake/debian/postinst" "${CMAKE_CURRENT_SOURCE_DIR}/CMake/debian/prerm")
 endif ()

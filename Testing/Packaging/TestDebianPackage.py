@@ -20,6 +20,8 @@ def output(*command):
 
 
 class Package(unittest.TestCase):
+    maxDiff = None
+
     def field(self, name):
         return output("dpkg-deb", "-f", PACKAGE, name).strip()
 
@@ -34,13 +36,16 @@ class Package(unittest.TestCase):
         self.assertGreater(int(self.field("Installed-Size")), 1000)
 
     def test_dependencies(self):
+        """Libraries of the Debian that this is, functions in Python without VTK, and no package of a developer."""
         depends = {re.split(r"[ (]", entry.strip())[0] for entry in self.field("Depends").split(",")}
-        expected = {"libc6", "libstdc++6", "libvtk9.1", "libgmp10"}
+        expected = ["libc6", r"libstdc\+\+6", r"libvtk9\.\d", "libgmp10"]
         if HAVE_PYTHON:
-            expected |= {"python3", "python3-vtk9", "python3-numpy"}
+            expected += ["python3", "python3-numpy"]
+            self.assertEqual(self.field("Recommends"), "python3-vtk9")
         if os.environ["VOXPLEX_HAVE_IO"] == "1":
-            expected |= {"libgdcm3.0", "libtiff6"}
-        self.assertEqual(expected - depends, set(), depends)
+            expected += [r"libgdcm\d\.\d(t64)?", r"libtiff\d"]
+        missing = [name for name in expected if not any(re.fullmatch(name, package) for package in depends)]
+        self.assertEqual(missing, [], depends)
         self.assertFalse([name for name in depends if name.endswith("-dev")])
         self.assertIn("libvtk9-dev", self.field("Suggests"))
 
@@ -76,11 +81,15 @@ class Package(unittest.TestCase):
         self.assertIn("py3compile -p voxplex", output("dpkg-deb", "-I", PACKAGE, "postinst"))
         self.assertIn("py3clean -p voxplex", output("dpkg-deb", "-I", PACKAGE, "prerm"))
 
-    @unittest.skipUnless(shutil.which("lintian"), "lintian is not installed")
+    @unittest.skipUnless(shutil.which("lintian") and shutil.which("help2man"),
+                         "lintian, or help2man for the manual page, is not installed")
     def test_lintian(self):
-        done = subprocess.run(["lintian", "--fail-on", "error,warning", "--allow-root", "--no-cfg", str(PACKAGE)],
+        """Nothing to say, apart from an override that the lintian of another Debian needs."""
+        done = subprocess.run(["lintian", "--display-info", "--fail-on", "error,warning,info", "--suppress-tags",
+                               "unused-override", "--allow-root", "--no-cfg", str(PACKAGE)],
                               capture_output=True, text=True, timeout=300, check=False)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(done.stdout, "", done.stderr)
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 if __name__ == "__main__":
