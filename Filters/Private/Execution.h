@@ -36,7 +36,8 @@ namespace voxplex
 inline bool IsStopRequested(vtkAlgorithm* filter)
 {
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
-  return filter->CheckAbort(); // also knows of filters further down the pipeline
+  // CheckAbort() knows of filters further down the pipeline, but not of SetAbortExecute().
+  return filter->GetAbortExecute() != 0 || filter->CheckAbort();
 #else
   return filter->GetAbortExecute() != 0;
 #endif

@@ -6,6 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from vtkmodules.util.vtkConstants import VTK_DOUBLE
 from vtkmodules.vtkCommonCore import vtkObject
 
 import meshfiles
@@ -61,12 +62,12 @@ def table_of(data):
         assert names == [] and colors is None
         return {}
     count = values.GetNumberOfValues()
-    assert values.GetClassName() in ("vtkIntArray", "vtkLongLongArray"), values.GetClassName()
+    assert values.GetDataTypeSize() in (4, 8) and values.GetDataTypeValueMin() < 0, values.GetClassName()
     assert len(names) == count
     labels = [values.GetValue(i) for i in range(count)]
     assert labels == sorted(set(labels)) and labels[0] > 0, labels
     if colors:
-        assert colors.GetClassName() == "vtkDoubleArray"
+        assert colors.GetDataType() == VTK_DOUBLE, colors.GetClassName()
         assert (colors.GetNumberOfComponents(), colors.GetNumberOfTuples()) == (3, count)
     table = {}
     for i, label in enumerate(labels):

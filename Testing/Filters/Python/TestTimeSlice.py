@@ -138,6 +138,7 @@ class SliceTestCase(unittest.TestCase):
         """Of labels (0: without), as VTK triangulates the cells; each piece is positive."""
         volumes, labels = {}, output.GetCellData().GetArray("Label")
         ids, points = vtkIdList(), vtkPoints()
+        points.SetDataTypeToDouble()
         for cell in range(output.GetNumberOfCells()):
             if output.GetCell(cell).GetCellDimension() == 3:
                 output.GetCell(cell).Triangulate(0, ids, points)

@@ -49,8 +49,8 @@ def legacy(array, form="BINARY", file="i.vtk", version="3.0", data=None, where="
     """
     sizes = [n + (where == "CELL_DATA") for n in array.shape[::-1]]
     lines = ["# vtk DataFile Version %s" % version, "a title", form, "DATASET STRUCTURED_POINTS",
-             "DIMENSIONS %d %d %d" % tuple(sizes), "SPACING %r %r %r" % tuple(SPACING),
-             "ORIGIN %r %r %r" % tuple(ORIGIN), "%s %d" % (where, array.size if count is None else count)]
+             "DIMENSIONS %d %d %d" % tuple(sizes), "SPACING %r %r %r" % tuple(map(float, SPACING)),
+             "ORIGIN %r %r %r" % tuple(map(float, ORIGIN)), "%s %d" % (where, array.size if count is None else count)]
     for line in header:
         word = line.split(" ")[0]
         lines = [line if old.split(" ")[0] == word else old for old in lines]
