@@ -10,6 +10,8 @@ import itertools
 import math
 import os
 
+import inspect
+
 import numpy
 import scipy.sparse
 import scipy.sparse.linalg
@@ -117,8 +119,9 @@ def solve(matrix, right_side, known=None, values=None, tolerance=1e-10):
     system = (scipy.sparse.diags(scale) @ system).tocsc()
     factors = scipy.sparse.linalg.spilu(system, drop_tol=1e-3, fill_factor=8)
     preconditioner = scipy.sparse.linalg.LinearOperator(system.shape, factors.solve)
+    relative = "rtol" if "rtol" in inspect.signature(scipy.sparse.linalg.gmres).parameters else "tol"  # before SciPy 1.12
     answer, status = scipy.sparse.linalg.gmres(system, scale * load, M=preconditioner, restart=60, maxiter=40,
-                                               tol=tolerance, atol=0.0)
+                                               atol=0.0, **{relative: tolerance})
     if status != 0:
         raise RuntimeError("GMRES did not converge: a finer mesh may help")
     solution[free] = answer

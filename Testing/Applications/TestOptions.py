@@ -22,7 +22,7 @@ class Options(ProgramTestCase):
 
     def test_chosen_labels_count_first(self):
         """Negative voxels are background then."""
-        images.write_nrrd(self.folder / "chosen.nrrd", np.where(self.array == 0, -1024, self.array).astype(np.int32))
+        images.write_nrrd(self.folder / "chosen.nrrd", np.where(self.array == 0, -1024, self.array.astype(np.int32)))
         report = self.statistics("--input", "chosen.nrrd", "--labels", "3,7", "--delta", 2)
         self.assertEqual(set(report["labels"]), {"3", "7"})
         self.assert_refused(1, "-1024.* is negative.*with --isovalue.*choose the labels to mesh with --labels",

@@ -2,13 +2,19 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """The formats of solvers as meshio, h5py and an XML parser read them, against .vtu and .vtp; and these by meshio."""
+import binascii
 import json
 import resource
+import tempfile
+import unittest
 from xml.etree import ElementTree
 
 import h5py
 import meshio
 import numpy as np
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 import images
 import meshfiles
@@ -16,6 +22,27 @@ from labelledmesh import LabelledMeshTestCase
 from program import main
 
 
+def meshio_reads_vtu():
+    """meshio 5.3 does not read appended raw data, of VTK itself either, with Python 3.13."""
+    points = vtkPoints()
+    for point in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)):
+        points.InsertNextPoint(point)
+    grid = vtkUnstructuredGrid()
+    grid.SetPoints(points)
+    grid.InsertNextCell(VTK_TETRA, 4, (0, 1, 2, 3))
+    with tempfile.TemporaryDirectory() as folder:
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetInputData(grid)
+        writer.SetFileName(folder + "/grid.vtu")
+        writer.EncodeAppendedDataOff()
+        writer.Write()
+        try:
+            return len(meshio.read(folder + "/grid.vtu").points) == 4
+        except binascii.Error:
+            return False
+
+
+@unittest.skipUnless(meshio_reads_vtu(), "meshio does not read VTK's own files with this Python")
 class VTKFilesReadByMeshio(LabelledMeshTestCase):
     """The same numbers as VTK's reader has."""
 

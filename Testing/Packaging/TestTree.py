@@ -61,7 +61,7 @@ class Contents(unittest.TestCase):
                   if part == "Filters" or "VoxplexIO" in MODULES}
         generated = {f"{folder}/vtk{module}Module.h" for module in MODULES}
         self.assertGreater(len(public), 4)
-        self.assertEqual(names, public | generated)
+        self.assertEqual(names - {"VoxplexPython.h"}, public | generated)  # VTK 9.3 writes it for the wrapped classes
 
     def test_no_path_of_this_machine(self):
         paths = [os.environ[name].encode() for name in ("VOXPLEX_BUILD", "VOXPLEX_SOURCE")]

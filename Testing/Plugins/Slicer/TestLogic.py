@@ -186,7 +186,7 @@ class Runs(ModuleTestCase):
         self.logic = MeshingLogic(ProcessRunner(self.folder), self.lines.append, self.states.append)
 
     def test_mesh(self):
-        self.logic.start(self.segments, Settings(delta=2.0))
+        self.logic.start(self.segments, Settings(delta=0.6))
         phases = [state.phase for state in self.states]
         self.assertEqual((phases[0], phases[-1]), (Phase.RUNNING, Phase.COMPLETED))
         progress = [state.progress for state in self.states]
