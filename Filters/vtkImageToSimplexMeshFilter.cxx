@@ -302,6 +302,13 @@ int vtkImageToSimplexMeshFilter::FillInputPortInformation(int port, vtkInformati
   return 1;
 }
 
+vtkTypeBool vtkImageToSimplexMeshFilter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  VOXPLEX_FORGET_ABORT(request);
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
 int vtkImageToSimplexMeshFilter::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -327,10 +334,6 @@ int vtkImageToSimplexMeshFilter::RequestData(
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   this->ErrorMessage.clear();
   this->Aborted = false;
-  if (!request->Get(Pipeline::CONTINUE_EXECUTING()))
-  {
-    VOXPLEX_FORGET_ABORT();
-  }
   this->Private->Warnings.clear();
   this->Private->Statistics->Initialize();
   const auto clearOutputs = [this, outputVector]

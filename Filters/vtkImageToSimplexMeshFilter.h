@@ -627,6 +627,10 @@ public:
   void SetSizeFunction(SizeFunctionType function);
 #endif
 
+  /** What stopped the last execution does not stop the next one. */
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
 protected:
   vtkImageToSimplexMeshFilter();
   ~vtkImageToSimplexMeshFilter() override;

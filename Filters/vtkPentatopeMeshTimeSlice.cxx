@@ -271,6 +271,7 @@ vtkTypeBool vtkPentatopeMeshTimeSlice::ProcessRequest(
       input->Remove(Pipeline::UPDATE_TIME_STEP());
     }
   }
+  VOXPLEX_FORGET_ABORT(request);
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
 
@@ -325,7 +326,6 @@ bool vtkPentatopeMeshTimeSlice::FindRange(vtkInformation* inputInformation, doub
 int vtkPentatopeMeshTimeSlice::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  VOXPLEX_FORGET_ABORT();
   vtkUnstructuredGrid* const output = vtkUnstructuredGrid::GetData(outputVector);
   output->Initialize();
   this->ErrorMessage = voxplex::CatchFailure(

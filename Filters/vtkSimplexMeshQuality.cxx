@@ -136,13 +136,19 @@ int vtkSimplexMeshQuality::RequestUpdateExtent(
 }
 
 //----------------------------------------------------------------------------------------------------
+vtkTypeBool vtkSimplexMeshQuality::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  VOXPLEX_FORGET_ABORT(request);
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
 int vtkSimplexMeshQuality::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->ErrorMessage.clear();
   this->Aborted = false;
   this->Private->Clear();
-  VOXPLEX_FORGET_ABORT();
   bool done = false;
   this->ErrorMessage = voxplex::InTermsOf(voxplex::UserInterface::VTK,
     voxplex::CatchFailure( // also if no thread can be started

@@ -262,6 +262,10 @@ public:
   /** Whether the last execution was stopped. */
   bool GetAborted() const { return this->Aborted; }
 
+  /** What stopped the last execution does not stop the next one. */
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
 protected:
   vtkSimplexMeshQuality();
   ~vtkSimplexMeshQuality() override;

@@ -21,13 +21,19 @@
 #include <string>
 
 /**
- * What stopped the last execution does not stop this one. In VTK 9.2 and before the executive sees to
- * it. (It is no function, because SetAbortExecute() would modify the filter.)
+ * For ProcessRequest(): what stopped the last execution does not stop the next one. This request comes before the first
+ * progress event, whose observers may stop it. In VTK 9.2 and before the executive sees to it. (It is no function,
+ * because SetAbortExecute() would modify the filter.)
  */
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220823)
-#define VOXPLEX_FORGET_ABORT() this->AbortExecute = 0
+#define VOXPLEX_FORGET_ABORT(request)                                                              \
+  if ((request)->Has(vtkStreamingDemandDrivenPipeline::REQUEST_DATA_NOT_GENERATED()) &&            \
+    !(request)->Get(vtkStreamingDemandDrivenPipeline::CONTINUE_EXECUTING()))                       \
+  {                                                                                                \
+    this->AbortExecute = 0;                                                                        \
+  }
 #else
-#define VOXPLEX_FORGET_ABORT()
+#define VOXPLEX_FORGET_ABORT(request)
 #endif
 
 namespace voxplex

@@ -247,13 +247,14 @@ class Executions(SliceTestCase):
             slicer, events = self.slicer(pentatopes()), []
 
             def abort(caller, _event):
-                events.append(1)
+                events.append(caller.GetProgress())
                 if len(events) == last:
                     caller.SetAbortExecute(1)
 
             tag = slicer.AddObserver("ProgressEvent", abort)
             slicer.UpdateTimeStep(0.5)
-            self.assertEqual((slicer.GetOutput().GetNumberOfCells(), slicer.GetErrorMessage(), len(events)), (0, "", last))
+            self.assertEqual((slicer.GetOutput().GetNumberOfCells(), slicer.GetErrorMessage()), (0, ""))
+            self.assertEqual([fraction for fraction in events[last:] if 0 < fraction < 1], [])  # VTK 9.3 reports the end
             slicer.RemoveObserver(tag)
             slicer.Modified()
             self.update(slicer, 0.5)
