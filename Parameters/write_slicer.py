@@ -3,27 +3,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes what 3D Slicer's scripted module knows of the parameters, which needs no build:
 
-    write_slicer.py PROGRAM > Plugins/Slicer/VoxplexMesher/VoxplexMesherLib/Table.py
+    write_slicer.py PROGRAM > Plugins/Slicer/VoxplexMesher/VoxplexMesherLib/Parameters.json
 
-PROGRAM prints the table as JSON.
+PROGRAM prints the table as JSON. A parameter has a line, and only what differs from the default of a key.
 """
-import pprint
+import json
 import sys
 
 from write_documentation import read_table
 
-HEAD = '''# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
-# SPDX-License-Identifier: BSD-3-Clause
-"""The parameters of meshing; written by Parameters/write_slicer.py."""
-
-TABLE = '''
-KEYS = ("slicer", "option", "group", "label", "kind", "unit", "default", "zero", "step", "words", "range", "usual", "slicer_help")
+DEFAULTS = {"slicer": "", "option": "", "group": "", "label": "", "kind": "", "unit": "", "default": "", "zero": "", "step": 0.0,
+            "words": [], "range": [None, None], "usual": [None, None], "slicer_help": ""}
 
 
-def module(table):
-    rows = [{key: p[key] for key in KEYS} for p in table if p["slicer"]]
-    return HEAD + pprint.pformat(rows, width=120, sort_dicts=False) + "\n"
+def text(table):
+    rows = [{key: p[key] for key, value in DEFAULTS.items() if p[key] != value} for p in table if p["slicer"]]
+    lines = [json.dumps(row, ensure_ascii=False) for row in [DEFAULTS, *rows]]
+    return "[\n" + ",\n".join(lines) + "\n]\n"
 
 
 if __name__ == "__main__":
-    sys.stdout.write(module(read_table(sys.argv[1])))
+    sys.stdout.write(text(read_table(sys.argv[1])))

@@ -9,7 +9,7 @@ background not listed. `SPACE` has the coordinate system, LPS or RAS.
 from __future__ import annotations
 
 import difflib
-from typing import Any, Dict, List, Mapping, Union
+from typing import Any, Dict, List, Mapping, Optional, Union
 
 import numpy
 from numpy.typing import NDArray
@@ -24,15 +24,12 @@ _VALUES = "LabelValues"
 _NAMES = "LabelNames"
 _COLORS = "LabelColors"
 OF_LABELS = (_VALUES, _NAMES, _COLORS)
+TEXTS = (_NAMES, "SurfaceNames", "SPACE")  # files of meshes have bytes in their place
 
 
-def names_in(fields: Fields) -> Dict[int, str]:
-    """The names of labels, by value. Labels without a name are not in it."""
-    values = fields.get(_VALUES)
-    names = fields.get(_NAMES)
-    if values is None or names is None:
-        return {}
-    return {int(value): str(name) for value, name in zip(values, names) if name}
+def texts_of(data: bytes) -> List[str]:
+    """Of bytes with a 0 at the end of each text."""
+    return [text.decode(errors="replace") for text in data.split(b"\0")[:-1]]
 
 
 def set_names(fields: Fields, names: Mapping[int, str]) -> None:
@@ -52,6 +49,31 @@ def set_names(fields: Fields, names: Mapping[int, str]) -> None:
         large = values[-1] >= 2 ** 31
         fields[_VALUES] = numpy.array(values, dtype=numpy.int64 if large else numpy.int32)
         fields[_NAMES] = [names[value] for value in values]
+
+
+class HasFields:
+    """An image, a mesh or its interfaces: what has field data."""
+
+    field_data: Fields
+
+    @property
+    def names(self) -> Dict[int, str]:
+        """The names of labels, by value; those without one are not in it. Assign to it to change them; colours are dropped then."""
+        values = self.field_data.get(_VALUES)
+        names = self.field_data.get(_NAMES)
+        if values is None or names is None:
+            return {}
+        return {int(value): str(name) for value, name in zip(values, names) if name}
+
+    @names.setter
+    def names(self, names: Mapping[int, str]) -> None:
+        set_names(self.field_data, names)
+
+    @property
+    def space(self) -> Optional[str]:
+        """The coordinates, LPS or RAS; None if they are not known."""
+        found = self.field_data.get("SPACE")
+        return str(found[0]) if found is not None and len(found) else None
 
 
 def label_value(label: Label, names: Mapping[int, str]) -> int:

@@ -102,9 +102,7 @@ def mesh_file(mesh: Union[Mesh, Path, Any], folder: str) -> str:
     if isinstance(mesh, (str, os.PathLike)):
         return existing(mesh)
     if not isinstance(mesh, Mesh):
-        if not hasattr(mesh, "GetCellData"):
-            raise TypeError(f"mesh must be a voxplex.Mesh, a vtkUnstructuredGrid or a path, not {type(mesh).__name__}")
-        mesh = Mesh.from_vtk(mesh)
+        raise TypeError(f"mesh must be a voxplex.Mesh, a vtkUnstructuredGrid or a path, not {type(mesh).__name__}")
     path = os.path.join(folder, "mesh.vtu")
     xmlfiles.write(path, mesh)
     return path

@@ -18,7 +18,7 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from .fields import Fields, names_in, set_names
+from .fields import Fields, HasFields
 
 # NumPy has types for a part of it only.
 _MASKED: Any = numpy.ma
@@ -26,7 +26,7 @@ _MASKED: Any = numpy.ma
 Path = Union[str, "os.PathLike[str]"]
 
 
-class Image:
+class Image(HasFields):
     """A label image, one of grey values, or a time series of such images, with its place.
 
     voxels: an array indexed [k, j, i], or [t, k, j, i] of a time series. One label a voxel, 0 is background, or one
@@ -68,7 +68,7 @@ class Image:
         self.times = self._times(times)
         self.field_data: Fields = {}
         if names:
-            set_names(self.field_data, names)
+            self.names = dict(names)
         if space is not None:
             self.field_data["SPACE"] = [space_of(space)]
 
@@ -81,21 +81,6 @@ class Image:
     def is_series(self) -> bool:
         """Whether it has time frames."""
         return self.voxels.ndim == 4
-
-    @property
-    def names(self) -> Dict[int, str]:
-        """Of labels, by value. Assign to it to change them; colours are dropped then."""
-        return names_in(self.field_data)
-
-    @names.setter
-    def names(self, names: Mapping[int, str]) -> None:
-        set_names(self.field_data, names)
-
-    @property
-    def space(self) -> Optional[str]:
-        """LPS or RAS; None if it is not known."""
-        found = self.field_data.get("SPACE")
-        return str(found[0]) if found is not None and len(found) else None
 
     def to_vtk(self) -> Any:
         """A vtkImageData that shares the voxels; of a time series a list of them, each with its time."""

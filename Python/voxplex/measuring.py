@@ -92,7 +92,9 @@ def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
     geometry = place_of(spacing, origin, direction)
     if source is None and (labels is not None or geometry):
         raise ValueError(f"{', '.join(geometry) or 'labels'}: only with an image")
-    space = _space_of(mesh)
+    if hasattr(mesh, "GetCellData"):
+        mesh = Mesh.from_vtk(mesh)
+    space = mesh.space if isinstance(mesh, Mesh) else None
     if isinstance(source, Image) and None not in (space, source.space) and space != source.space:
         raise ValueError(f"the mesh is in {space} coordinates, the image in {source.space}")
     with temporary_folder() as folder:
@@ -115,13 +117,3 @@ def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
         with open(report, encoding="utf-8") as file:
             figures: Dict[str, Any] = json.load(file)
     return figures
-
-
-def _space_of(mesh: Any) -> Optional[str]:
-    """LPS or RAS, where a mesh in memory says it."""
-    if isinstance(mesh, (str, os.PathLike)):
-        return None
-    fields = (mesh if isinstance(mesh, Mesh) else Mesh.from_vtk(mesh)).field_data if hasattr(mesh, "GetCellData") or isinstance(
-        mesh, Mesh) else {}
-    found = fields.get("SPACE")
-    return str(found[0]) if found is not None and len(found) else None

@@ -4,17 +4,17 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Mapping, Optional, Tuple
+from typing import Any, Dict, Optional, Tuple
 
 import numpy
 from numpy.typing import NDArray
 
-from .fields import names_in, set_names
+from .fields import HasFields
 from .images import Path
 from .xmlfiles import Arrays
 
 
-class _Simplices(Arrays):
+class _Simplices(Arrays, HasFields):
     """Points, cells and data; `field_data` has the names of labels and other things that are of no point or cell."""
 
     _corners: Tuple[int, ...] = ()
@@ -53,15 +53,6 @@ class _Simplices(Arrays):
         result = cls.__new__(cls)
         result.__dict__.update(arrays.__dict__)
         return result
-
-    @property
-    def label_names(self) -> Dict[int, str]:
-        """The names of labels, by value, where the image had names. Assign to it to change them."""
-        return names_in(self.field_data)
-
-    @label_names.setter
-    def label_names(self, names: Mapping[int, str]) -> None:
-        set_names(self.field_data, names)
 
     @property
     def times(self) -> NDArray[numpy.float64]:

@@ -16,12 +16,11 @@ from vtkmodules.vtkCommonDataModel import (
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
-from .fields import Fields
+from .fields import TEXTS, Fields, texts_of
 from .images import Image, from_components
 from .xmlfiles import ACTIVE, CELL_TYPE, CORNERS, IDS, Arrays, check, native
 
 _GHOSTS = "vtkGhostType"
-_TEXTS = ("LabelNames", "SurfaceNames", "SPACE")
 
 
 def image_to_vtk(image: Image) -> Any:
@@ -225,8 +224,8 @@ def _fields(data: vtkFieldData) -> Fields:
         array = data.GetAbstractArray(n)
         if array.IsA("vtkStringArray"):
             result[array.GetName()] = [array.GetValue(i) for i in range(array.GetNumberOfValues())]
-        elif array.GetName() in _TEXTS:
-            result[array.GetName()] = [text.decode(errors="replace") for text in bytes(array).split(b"\0")[:-1]]
+        elif array.GetName() in TEXTS:
+            result[array.GetName()] = texts_of(bytes(array))
     return result
 
 

@@ -12,11 +12,9 @@ from xml.sax.saxutils import quoteattr
 import numpy
 from numpy.typing import NDArray
 
-from .fields import Fields
+from .fields import TEXTS, Fields, texts_of
 
 _APPENDED = b'<AppendedData encoding="raw">'
-_TEXTS = ("LabelNames", "SurfaceNames", "SPACE")  # have bytes in place of strings in files of meshes
-
 # By VTK's type of a cell of a mesh, or of interfaces: a triangle, a tetrahedron, a pentatope.
 CORNERS = {5: 3, 10: 4, 2: 5}
 ACTIVE = "Label"  # the array that other programs show first
@@ -84,9 +82,9 @@ def read(path: str) -> Arrays:
     types = cells["types"]
     corners = CORNERS[int(types[0])] if len(types) else 4
     fields: Fields = found.get("FieldData", nothing)
-    for name in _TEXTS:
+    for name in TEXTS:
         if name in fields and not isinstance(fields[name], list):
-            fields[name] = _texts(numpy.asarray(fields[name]))
+            fields[name] = texts_of(numpy.asarray(fields[name]).tobytes())
     return Arrays(points.reshape(-1, 3), cells["connectivity"].reshape(-1, corners), found.get("PointData", nothing),
                   found.get("CellData", nothing), fields)
 
@@ -100,14 +98,9 @@ def _read_array(file: Any, start: int, element: ElementTree.Element) -> Union[ND
     if array.size and file.readinto(array.view(numpy.uint8).data) != size:
         raise ValueError(f"{file.name} is cut short")
     if kind == "String":
-        return _texts(array)
+        return texts_of(array.tobytes())
     components = int(element.get("NumberOfComponents") or 1)
     return array.reshape(-1, components) if components > 1 else array
-
-
-def _texts(array: NDArray[Any]) -> List[str]:
-    """Of bytes with a 0 at the end of each text."""
-    return [text.decode(errors="replace") for text in array.tobytes().split(b"\0")[:-1]]
 
 
 def write(path: str, arrays: Arrays) -> None:

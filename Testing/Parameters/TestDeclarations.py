@@ -17,7 +17,7 @@ from table import BY_PROPERTY, SOURCE, TABLE, default_of
 sys.path.append(str(SOURCE / "Parameters"))
 from write_documentation import page  # noqa: E402
 from write_paraview import write  # noqa: E402
-from write_slicer import module  # noqa: E402
+from write_slicer import text as slicers_text  # noqa: E402
 
 XML = SOURCE / "Plugins" / "ParaView" / "XML"
 # Of ParaView itself, or about its input.
@@ -91,8 +91,8 @@ class Documentation(unittest.TestCase):
 
     def test_slicers_table_is_up_to_date(self):
         """If not: Parameters/write_slicer.py says how it is written."""
-        path = SOURCE / "Plugins" / "Slicer" / "VoxplexMesher" / "VoxplexMesherLib" / "Table.py"
-        self.assertEqual(path.read_text(), module(TABLE))
+        path = SOURCE / "Plugins" / "Slicer" / "VoxplexMesher" / "VoxplexMesherLib" / "Parameters.json"
+        self.assertEqual(path.read_text(encoding="utf-8"), slicers_text(TABLE))
 
     def test_defaults_in_the_reference(self):
         """Tables whose rows begin with an option and a number, or a word."""

@@ -178,7 +178,7 @@ class Files(unittest.TestCase):
         self.assertEqual(voxplex.read_segmentation(path).names, {5: "liver", 9: "spleen"})
         mesh = voxplex.mesh(path, 1.5, labels=["spleen"])
         self.assertEqual(set(mesh.labels), {9})
-        self.assertEqual(mesh.label_names, {5: "liver", 9: "spleen"})
+        self.assertEqual(mesh.names, {5: "liver", 9: "spleen"})
         table = self.folder / "table.txt"
         table.write_text("5 kidney\n9 bladder\n")
         image = voxplex.read_segmentation(self.image, label_table=table)

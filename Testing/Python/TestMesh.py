@@ -134,10 +134,10 @@ class Inputs(unittest.TestCase):
         image = voxplex.Image(brick(), names={9: "spleen", 5: "liver"}, space="LPS")
         mesh = voxplex.mesh(image, 1.5)
         for part in (mesh, mesh.interfaces):
-            self.assertEqual(part.label_names, {5: "liver", 9: "spleen"})
+            self.assertEqual(part.names, {5: "liver", 9: "spleen"})
             self.assertEqual(part.field_data["SPACE"], ["LPS"])
         plain = voxplex.mesh(brick(), 1.5)
-        self.assertEqual(plain.label_names, {})
+        self.assertEqual(plain.names, {})
         self.assertNotIn("SPACE", plain.field_data)
 
 

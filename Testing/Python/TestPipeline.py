@@ -12,37 +12,13 @@ from phantoms import beating, brick
 
 try:
     from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-    from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData, vtkPolyData, vtkUnstructuredGrid
-    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+    from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
     from vtkmodules.vtkFiltersCore import vtkThreshold
+    from temporal import Series
 except ModuleNotFoundError as missing:
     raise unittest.SkipTest("there is no VTK") from missing
 
 from voxplex.pipeline import vtkImageToPentatopeMeshFilter, vtkImageToTetMeshFilter
-
-
-class Series(VTKPythonAlgorithmBase):
-    """A source of frames."""
-
-    def __init__(self, frames, times):
-        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkImageData")
-        self.frames, self.times = frames, times
-
-    def RequestInformation(self, _request, _inputs, outputs):
-        information = outputs.GetInformationObject(0)
-        information.Set(Pipeline.WHOLE_EXTENT(), self.frames[0].GetExtent(), 6)
-        information.Set(Pipeline.TIME_STEPS(), self.times, len(self.times))
-        information.Set(Pipeline.TIME_RANGE(), [self.times[0], self.times[-1]], 2)
-        return 1
-
-    def RequestData(self, _request, _inputs, outputs):
-        information = outputs.GetInformationObject(0)
-        index = self.times.index(information.Get(Pipeline.UPDATE_TIME_STEP()))
-        result = vtkImageData.GetData(outputs, 0)
-        result.ShallowCopy(self.frames[index])
-        result.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), self.times[index])
-        return 1
 
 
 class Tetrahedra(unittest.TestCase):

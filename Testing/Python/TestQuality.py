@@ -19,13 +19,12 @@ from phantoms import ball, beating, brick
 
 try:
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-    from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
     from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkImageData, vtkPolyData, vtkUnstructuredGrid
-    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData, vtkUnstructuredGrid
     from vtkmodules.vtkFiltersModeling import vtkHausdorffDistancePointSetFilter
     from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter, vtkMeshQuality
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+    from temporal import Series
 except ModuleNotFoundError as missing:
     raise unittest.SkipTest("there is no VTK") from missing
 
@@ -45,30 +44,6 @@ def face_centres(labels):
         faces[:, 2 - axis] += 0.5
         centres.append(faces)
     return numpy.concatenate(centres)
-
-
-class FrameSource(VTKPythonAlgorithmBase):
-    """A temporal pipeline's beginning."""
-
-    def __init__(self, frames, times):
-        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkImageData")
-        self.frames, self.times = frames, times
-
-    def RequestInformation(self, _request, _inputs, outputs):
-        information = outputs.GetInformationObject(0)
-        information.Set(Pipeline.WHOLE_EXTENT(), self.frames[0].GetExtent(), 6)
-        information.Set(Pipeline.TIME_STEPS(), self.times, len(self.times))
-        information.Set(Pipeline.TIME_RANGE(), [self.times[0], self.times[-1]], 2)
-        return 1
-
-    def RequestData(self, _request, _inputs, outputs):
-        information = outputs.GetInformationObject(0)
-        wanted = information.Get(Pipeline.UPDATE_TIME_STEP()) if information.Has(Pipeline.UPDATE_TIME_STEP()) else 0
-        index = min(range(len(self.times)), key=lambda number: abs(self.times[number] - wanted))
-        result = vtkImageData.GetData(outputs, 0)
-        result.ShallowCopy(self.frames[index])
-        result.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), self.times[index])
-        return 1
 
 
 class Figures(unittest.TestCase):
@@ -383,7 +358,7 @@ class SpaceTime(unittest.TestCase):
     @needs_classes
     def test_pipeline(self):
         """Time steps for frames. A request for another time does not measure again."""
-        frames = FrameSource(voxplex.Image(self.frames, times=self.TIMES).to_vtk(), self.TIMES)
+        frames = Series(voxplex.Image(self.frames, times=self.TIMES).to_vtk(), self.TIMES)
         mesher = voxplex.vtkImageToPentatopeMeshFilter()
         mesher.SetInputConnection(frames.GetOutputPort())
         mesher.SetTimeScale(self.SCALE)

@@ -239,7 +239,7 @@ class Meshes(unittest.TestCase):
         for mesh in (self.mesh, self.series):
             back = voxplex.Mesh.from_vtk(mesh.to_vtk())
             self.assertTrue(same(mesh, back))
-            self.assertEqual(back.label_names, mesh.label_names)
+            self.assertEqual(back.names, mesh.names)
             self.assertTrue(numpy.shares_memory(mesh.points, back.points))
             surfaces = voxplex.Interfaces.from_vtk(mesh.interfaces.to_vtk())
             self.assertTrue(same(mesh.interfaces, surfaces))

@@ -10,7 +10,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkImageData
 
 import voxplex
-from filter_testing import FilterTestCase, Series, add_array, components, image_of_array, pentatopes, tets
+from temporal import Series
+from filter_testing import FilterTestCase, add_array, components, image_of_array, pentatopes, tets
 from TestInputs import GHOSTS, converted, on_cells
 
 N, MIDDLE = 26, 12.5

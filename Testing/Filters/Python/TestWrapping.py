@@ -14,7 +14,8 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline 
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D, vtkImplicitPolyDataDistance
 
 import voxplex
-from filter_testing import Series, errors_of
+from filter_testing import errors_of
+from temporal import Series
 
 N = 24
 K, J, I = numpy.mgrid[:N, :N, :N] - 0.5 * (N - 1)

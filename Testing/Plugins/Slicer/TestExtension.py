@@ -74,14 +74,14 @@ class Extension(unittest.TestCase):
         folder = EXTENSION / "VoxplexMesher"
         listed = (folder / "CMakeLists.txt").read_text().replace("${MODULE_NAME}", "VoxplexMesher")
         for path in folder.rglob("*"):
-            if path.suffix in (".py", ".png"):
+            if path.suffix in (".py", ".png", ".json"):
                 self.assertIn(str(path.relative_to(folder)), listed)
 
     def test_nothing_is_compiled(self):
         """And nothing of the repository outside of the extension's folder is needed."""
         scripts = (self.build / "VoxplexMesher" / "cmake_install.cmake").read_text()
         self.assertIn("qt-scripted-modules/VoxplexMesherLib", scripts)
-        self.assertIn("VoxplexMesherLib/Table.py", scripts)
+        self.assertIn("VoxplexMesherLib/Parameters.json", scripts)
         self.assertNotIn("cli-modules", (self.build / "cmake_install.cmake").read_text())
         self.assertNotIn("CGAL_DIR", (self.build / "CMakeCache.txt").read_text())
 

@@ -15,13 +15,12 @@ import enum
 import json
 import math
 from dataclasses import asdict, dataclass, field, fields, make_dataclass, replace
+from pathlib import Path
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import VTK_TETRA
-
-from VoxplexMesherLib.Table import TABLE
 
 
 class MeshingError(Exception):
@@ -39,6 +38,8 @@ class Segment:
 
 
 # The parameters of meshing that are settings, by their names in the CLI module. The segments have the others.
+_DEFAULTS, *_ROWS = json.loads(Path(__file__).with_name("Parameters.json").read_text(encoding="utf-8"))
+TABLE = [{**_DEFAULTS, **row} for row in _ROWS]  # as Parameters/write_slicer.py writes it
 PARAMETERS = {p["slicer"]: p for p in TABLE if p["slicer"] not in ("", "insideLabel", "labels", "labelSizes")}
 
 
