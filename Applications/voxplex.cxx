@@ -320,6 +320,45 @@ nlohmann::ordered_json MeasureMesh(
     p, [&](const ProgressFunction& progress) { return Measure(p, input, mesh.Mesh, progress); });
 }
 
+/** All files that hold the mesh or a part of it. */
+void WriteFiles(const Parameters& p, const MeshWithInterfaces& mesh,
+  const std::optional<SliceFiles>& slices, const std::optional<SlabFiles>& slabs,
+  io::WholeFiles& files)
+{
+  using Writer = vtkSimplexMeshWriter;
+  WriteMeshFile(mesh.Mesh, mesh.Interfaces, Writer::CONTENT_MESH, p.Output, files, -1, p.Compress);
+  WriteMeshFile(
+    mesh.Mesh, mesh.Interfaces, Writer::CONTENT_INTERFACES, p.Interfaces, files, -1, p.Compress);
+  if (slices)
+  {
+    WriteSlices(mesh.Mesh, *slices, p.Compress, files);
+  }
+  if (slabs)
+  {
+    WriteSlabs(mesh, *slabs, p, files);
+  }
+}
+
+/** Of the run that made the mesh, with what was measured; of a mesh that was there the latter alone. */
+nlohmann::ordered_json Report(const Parameters& p, const MeshingInput& input,
+  const MeshWithInterfaces& mesh, const Filter& filter, const InputOutputTimes& times,
+  const io::LabelTable& names)
+{
+  nlohmann::ordered_json measurement = MeasureMesh(p, input, mesh);
+  if (!filter)
+  {
+    return measurement;
+  }
+  const std::string source = p.Has("isovalue") ? "" : input.Labels->GetLabelTableSource();
+  auto report =
+    MakeReport(filter->GetStatistics(), p, LabelReport{ input.Selection, names, source }, times);
+  if (p.Quality)
+  {
+    AddMeasurement(measurement, report);
+  }
+  return report;
+}
+
 void Run(const Parameters& p)
 {
   io::WholeFiles files;
@@ -339,37 +378,9 @@ void Run(const Parameters& p)
   const Filter filter = mesh.Mesh ? Filter() : MakeMesh(p, input, mesh);
 
   const Stopwatch writing;
-  using Writer = vtkSimplexMeshWriter;
-  WriteMeshFile(mesh.Mesh, mesh.Interfaces, Writer::CONTENT_MESH, p.Output, files, -1, p.Compress);
-  WriteMeshFile(
-    mesh.Mesh, mesh.Interfaces, Writer::CONTENT_INTERFACES, p.Interfaces, files, -1, p.Compress);
-  if (slices)
-  {
-    WriteSlices(mesh.Mesh, *slices, p.Compress, files);
-  }
-  if (slabs)
-  {
-    WriteSlabs(mesh, *slabs, p, files);
-  }
+  WriteFiles(p, mesh, slices, slabs, files);
   times.Write = writing.Seconds();
-
-  nlohmann::ordered_json report;
-  if (filter)
-  {
-    report = MakeReport(filter->GetStatistics(), p,
-      LabelReport{
-        input.Selection, names, p.Has("isovalue") ? "" : input.Labels->GetLabelTableSource() },
-      times);
-  }
-  const nlohmann::ordered_json measurement = MeasureMesh(p, input, mesh);
-  if (!filter)
-  {
-    report = measurement;
-  }
-  else if (p.Quality)
-  {
-    AddMeasurement(measurement, report);
-  }
+  const nlohmann::ordered_json report = Report(p, input, mesh, filter, times, names);
   if (!p.Statistics.empty())
   {
     WriteReport(report, p.Statistics, files);
