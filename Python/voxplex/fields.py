@@ -23,7 +23,6 @@ Label = Union[int, str]
 _VALUES = "LabelValues"
 _NAMES = "LabelNames"
 _COLORS = "LabelColors"
-OF_LABELS = (_VALUES, _NAMES, _COLORS)
 TEXTS = (_NAMES, "SurfaceNames", "SPACE")  # files of meshes have bytes in their place
 
 
@@ -43,7 +42,7 @@ def set_names(fields: Fields, names: Mapping[int, str]) -> None:
     values = sorted(names)
     if values and values[0] < 1:
         raise ValueError(f"labels are whole numbers from 1 on, not {values[0]}")
-    for array in OF_LABELS:
+    for array in (_VALUES, _NAMES, _COLORS):
         fields.pop(array, None)
     if values:
         large = values[-1] >= 2 ** 31

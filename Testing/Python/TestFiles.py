@@ -236,11 +236,14 @@ class Files(unittest.TestCase):
         mesh = voxplex.mesh(image, 2.0)
         self.assertEqual(voxplex.quality(mesh, self.image), voxplex.quality(mesh, image))
         sizes = self.folder / "sizes.nrrd"
-        write_nrrd(sizes, numpy.full(self.labels.shape, 0.8, dtype=numpy.float32))
-        header = sizes.read_bytes().replace(b"float32", b"float")
-        sizes.write_bytes(header)
-        finer = voxplex.mesh(image, 2.0, size_image=sizes)
+        values = numpy.zeros(self.labels.shape, dtype=numpy.float32)
+        values[:, :, 10:] = 0.8
+        write_nrrd(sizes, values)
+        sizes.write_bytes(sizes.read_bytes().replace(b"float32", b"float"))
+        finer = voxplex.mesh(image, 2.0, size_image=sizes, threads=1)
         self.assertGreater(len(finer.cells), 1.5 * len(mesh.cells))
+        expected = voxplex.mesh(image, 2.0, size_image=voxplex.read_segmentation(sizes, space="RAS"), threads=1)
+        numpy.testing.assert_array_equal(finer.points, expected.points)
 
     def test_interfaces_follow_the_mesh(self):
         mesh = voxplex.mesh(self.image, 2.0)
