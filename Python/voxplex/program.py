@@ -105,9 +105,9 @@ def _messages(lines: List[str]) -> List[str]:
 
 def _failure(status: int, messages: List[str]) -> Exception:
     texts = [text[len(_NAME):] if text.startswith(_NAME) else text for text in messages]
-    if status == 2:
-        return ArgumentError("\n".join(text for text in texts if not text.startswith("see voxplex --help")))
     text = "\n".join(texts)
+    if status == 2:
+        return ArgumentError(text)
     if status > 128:
         return MeshingCancelled(text)
     if status < 0:

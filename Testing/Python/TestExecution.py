@@ -142,12 +142,12 @@ class Interruption(unittest.TestCase):
         here = os.path.dirname(os.path.abspath(__file__))
         script = ("import sys; sys.path.insert(0, %r)\n"
                   "import voxplex; from phantoms import ball\n"
-                  "voxplex.mesh(ball(64, (30.0, 12.0)), 0.12, force=True, progress=lambda _: print('started', flush=True))" % here)
+                  "voxplex.mesh(ball(64, (30.0, 12.0)), 0.04, force=True, progress=lambda _: print('started', flush=True))" % here)
         with subprocess.Popen([sys.executable, "-c", script], text=True, stdout=subprocess.PIPE) as process:
             self.assertEqual(process.stdout.readline(), "started\n")
             (program,) = children(process.pid)
             process.kill()
-        for _ in range(600):
+        for _ in range(200):
             if not is_running(program):
                 break
             time.sleep(0.1)
