@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Adds the licences of Debian's code to a wheel that auditwheel has repaired, and completes its list of components.
 
-usage: add_licences.py UNPACKED_WHEEL STAND_IN
+usage: add_licences.py UNPACKED_WHEEL STAND_IN...
 
 Each package goes into the SBOM with its libraries, and its copyright file into .dist-info/licenses/. auditwheel's SBOM has
-no licences, no code from header files, and no library that dpkg knows under /lib. STAND_IN is a library of our own.
+no licences, no code from header files, and no library that dpkg knows under /lib. A STAND_IN is a library of our own.
 If a package is not in LICENCES, the exit status is 1.
 """
 import hashlib
@@ -19,25 +19,19 @@ import urllib.parse
 from pathlib import Path
 
 # What a wheel may have: packages whose copyright files were read, and the licence of the part that is used, which is never
-# the GPL only. (Debian's file for libcom-err2 does not name the licence of this library. Its source files do.)
+# the GPL only.
 LICENCES = {
     "Apache-2.0": "liblerc4 libssl3 libtbb12",
     "BSD-2-Clause": "libaec0 liblz4-1 libopenjp2-7 libsz2",
-    "BSD-3-Clause": "libcharls2 libdouble-conversion3 libgdcm3.0 libhdf5-103-1 libhwloc15 libp11-kit0 libssh2-1 libuuid1 "
-                    "libvtk9.1 libwebp7",
+    "BSD-3-Clause": "libcharls2 libdouble-conversion3 libgdcm3.0 libhdf5-103-1 libhwloc15 libuuid1 libvtk9.1 libwebp7",
     "BSD-3-Clause OR GPL-2.0-only": "libzstd1",
-    "BSD-Attribution-HPND-disclaimer": "libsasl2-2",
     "BSL-1.0": "libboost1.74-dev",
     "IJG AND BSD-3-Clause AND Zlib": "libjpeg62-turbo",
-    "LGPL-2.0-or-later": "libkeyutils1",
-    "LGPL-2.1-or-later": "libgnutls30 librtmp1 libtasn1-6 libudev1",
+    "LGPL-2.1-or-later": "libudev1",
     "LGPL-3.0-or-later": "libcgal-dev",
-    "LGPL-3.0-or-later OR GPL-2.0-or-later": "libgmp10 libhogweed6 libidn2-0 libnettle8 libunistring2",
+    "LGPL-3.0-or-later OR GPL-2.0-or-later": "libgmp10",
     "LicenseRef-Public-Domain": "liblzma5",
-    "MIT": "libbrotli1 libcom-err2 libdeflate0 libffi8 libgssapi-krb5-2 libjson-c5 libjsoncpp25 libk5crypto3 libkrb5-3 "
-           "libkrb5support0 libnghttp2-14 libpsl5 nlohmann-json3-dev",
-    "OLDAP-2.8": "libldap-2.5-0",
-    "curl": "libcurl4",
+    "MIT": "libdeflate0 libjson-c5 libjsoncpp25 nlohmann-json3-dev",
     "libpng-2.0": "libpng16-16",
     "libtiff": "libtiff6",
 }
@@ -58,13 +52,14 @@ def owners(*patterns):
             yield package.partition(":")[0], Path(path)
 
 
-def files_of_packages(libraries, stand_in):
+def files_of_packages(libraries, stand_ins):
     """The wheel's libraries by their packages. auditwheel adds eight digits of the original's digest to its name."""
     names = {}
     for library in libraries:
         base, short_digest, suffix = re.fullmatch(r"([^.]*)-(\w{8})(\..*)", library.name).groups()
         names[base + suffix, short_digest] = library
-    names.pop((stand_in.name, digest(stand_in)[:8]), None)
+    for stand_in in stand_ins:
+        names.pop((stand_in.name, digest(stand_in)[:8]), None)
     result = {package: [] for package, _ in owners(*COMPILED_IN)}
     for package, path in owners(*(f"*/{name}" for name, _ in names)):
         if path.is_file() and (library := names.pop((path.name, digest(path)[:8]), None)):
@@ -101,9 +96,9 @@ def add_texts(packages, folder):
             shutil.copy(name, folder / "common-licenses")
 
 
-def main(wheel, stand_in):
+def main(wheel, *stand_ins):
     (information,) = wheel.glob("*.dist-info")
-    packages = files_of_packages(list(wheel.glob("*.libs/*")), stand_in)
+    packages = files_of_packages(list(wheel.glob("*.libs/*")), stand_ins)
     for package in sorted(packages.keys() - LICENCE_OF.keys()):
         sys.exit(f"add_licences: the wheel has code of {package}. Read /usr/share/doc/{package}/copyright. If a wheel may "
                  "have it, add it to LICENCES in Python/wheel/add_licences.py.")
@@ -113,11 +108,12 @@ def main(wheel, stand_in):
     bill = json.loads(path.read_text())
     ours = bill["metadata"]["component"]
     ours["licenses"] = [{"expression": "BSD-3-Clause"}]
-    ours["components"] = files(wheel.glob(f"*.libs/{stand_in.name.partition('.')[0]}-*"))
+    ours["components"] = files(path for stand_in in stand_ins
+                               for path in wheel.glob(f"*.libs/{stand_in.name.partition('.')[0]}-*"))
     bill["components"] = [component(package, libraries) for package, libraries in sorted(packages.items())]
     bill["dependencies"] = [{"ref": ours["bom-ref"], "dependsOn": [part["bom-ref"] for part in bill["components"]]}]
     path.write_text(json.dumps(bill, indent=1) + "\n")
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), Path(sys.argv[2]))
+    main(*map(Path, sys.argv[1:]))
