@@ -5,10 +5,10 @@
 #include "Base/Error.h"
 #include "MeshingParameters.h"
 #include "Private/Execution.h"
-#include "Private/FiguresJson.h"
 #include "Private/Lists.h"
 #include "Private/MeshingMessages.h"
 #include "Private/QualityRun.h"
+#include "Private/QualityTables.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
@@ -19,8 +19,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -299,16 +297,7 @@ vtkTypeInt64 vtkSimplexMeshQuality::GetNumberOfLostComponents() const
 std::string vtkSimplexMeshQuality::ToJSON() const
 {
   const Internals& figures = *this->Private;
-  nlohmann::ordered_json json;
-  if (figures.SpaceTime)
-  {
-    voxplex::AddMeasurement(json, *figures.SpaceTime);
-  }
-  else
-  {
-    voxplex::AddMeasurement(json, figures.Figures);
-  }
-  return json.dump();
+  return figures.SpaceTime ? voxplex::ToJson(*figures.SpaceTime) : voxplex::ToJson(figures.Figures);
 }
 
 void vtkSimplexMeshQuality::PrintSelf(ostream& os, vtkIndent indent)

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file FiguresJson.h
- * @brief What is known of runs and of meshes, in JSON; the keys are documented in Documentation/Reference.md.
+ * @brief What is known of runs, in JSON; the keys are documented in Documentation/Reference.md.
+ *
+ * Sources with vtkDataArray.h cannot include it: the VTK of ParaView 5.13 renames its copy of the same library.
  */
 #ifndef voxplex_FiguresJson_h
 #define voxplex_FiguresJson_h
 
 #include "Image/DropComponents.h"
 #include "Mesher/MeshingStatistics.h"
-#include "Quality/MeshMeasurement.h"
 #include "Quality/MeshQuality.h"
-#include "Quality/SpaceTimeMeasurement.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -36,15 +36,6 @@ nlohmann::ordered_json ComponentsToJson(const std::vector<ComponentReport>& comp
  */
 void AppendLabel(
   nlohmann::ordered_json& labels, std::int64_t label, nlohmann::ordered_json figures);
-
-/** Adds counts, objects "labels", "quality", "topology", and if there was an image "image" and "hausdorff". */
-void AddMeasurement(nlohmann::ordered_json& json, const MeshMeasurement& measurement);
-
-/**
- * Adds counts, objects "labels", "quality", a list "worst_elements", if there was an image an object "image",
- * and a list "frames".
- */
-void AddMeasurement(nlohmann::ordered_json& json, const SpaceTimeMeasurement& figures);
 
 } // namespace voxplex
 

@@ -156,6 +156,10 @@ void AppendLabel(ordered_json& labels, std::int64_t label, ordered_json figures)
   labels.get_ref<ordered_json::object_t&>().emplace_back(std::to_string(label), std::move(figures));
 }
 
+//----------------------------------------------------------------------------------------------------
+namespace
+{
+
 void AddMeasurement(ordered_json& json, const MeshMeasurement& measurement)
 {
   AddCounts(json, measurement.Counts);
@@ -167,10 +171,6 @@ void AddMeasurement(ordered_json& json, const MeshMeasurement& measurement)
     AddImage(json, *measurement.Image);
   }
 }
-
-//----------------------------------------------------------------------------------------------------
-namespace
-{
 
 ordered_json FrameToJson(const FrameMeasurement& frame)
 {
@@ -202,8 +202,16 @@ ordered_json WorstToJson(const std::vector<WorstElement>& worst)
 
 } // namespace
 
-void AddMeasurement(ordered_json& json, const SpaceTimeMeasurement& figures)
+std::string ToJson(const MeshMeasurement& measurement)
 {
+  ordered_json json;
+  AddMeasurement(json, measurement);
+  return json.dump();
+}
+
+std::string ToJson(const SpaceTimeMeasurement& figures)
+{
+  ordered_json json;
   AddCounts(json, figures.Counts);
   ordered_json labels = ordered_json::object();
   for (const SpaceTimeLabel& label : figures.Labels())
@@ -234,6 +242,7 @@ void AddMeasurement(ordered_json& json, const SpaceTimeMeasurement& figures)
     frames.push_back(FrameToJson(frame));
   }
   json["frames"] = std::move(frames);
+  return json.dump();
 }
 
 } // namespace voxplex

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <map>
+#include <string>
 
 class vtkCellData;
 class vtkTable;
@@ -49,6 +50,13 @@ void FillHistograms(const SpaceTimeMeasurement& figures, vtkTable* table);
 
 /** A row for each frame and each label in its cut or its image. */
 void FillFrameTable(const SpaceTimeMeasurement& figures, vtkTable* table);
+
+/** Counts, objects "labels", "quality", "topology", and if there was an image "image" and "hausdorff"; all in JSON. */
+std::string ToJson(const MeshMeasurement& measurement);
+
+/** Counts, objects "labels", "quality", a list "worst_elements", if there was an image an object "image", and a list
+ * "frames"; all in JSON. */
+std::string ToJson(const SpaceTimeMeasurement& figures);
 
 } // namespace voxplex
 
