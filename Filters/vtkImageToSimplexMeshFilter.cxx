@@ -8,11 +8,13 @@
 #include "Private/MeshingMessages.h"
 #include "Private/SimplexMeshRun.h"
 
+#include "vtkCellData.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
+#include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <cmath>
@@ -239,6 +241,41 @@ void vtkImageToSimplexMeshFilter::ClearLabelRows()
 }
 
 //----------------------------------------------------------------------------------------------------
+std::map<vtkTypeInt64, vtkTypeInt64> vtkImageToSimplexMeshFilter::CountLabels(
+  vtkImageData* image, int association, const std::string& name, std::string& message)
+{
+  vtkAbstractArray* array = name.empty()
+    ? image->GetPointData()->GetScalars()
+    : image->GetAttributes(association)->GetAbstractArray(name.c_str());
+  if (name.empty())
+  {
+    association =
+      array ? vtkDataObject::FIELD_ASSOCIATION_POINTS : vtkDataObject::FIELD_ASSOCIATION_CELLS;
+    array = array ? array : image->GetCellData()->GetScalars();
+  }
+  std::map<vtkTypeInt64, vtkTypeInt64> counts;
+  message = voxplex::CatchFailure(
+    [&]
+    {
+      voxplex::ChosenArray chosen =
+        voxplex::Choose(image, array, association, voxplex::ImageContent::Labels, "input image");
+      chosen.Array = voxplex::Contiguous(chosen.Array);
+      // Components lie side by side: they make rows longer.
+      const vtkSmartPointer<vtkDataArray> all = chosen.Array;
+      chosen.Array.TakeReference(all->NewInstance());
+      chosen.Array->SetVoidArray(all->GetVoidPointer(0), all->GetNumberOfValues(), 1);
+      chosen.Frame.Grid.Dimensions[0] *= all->GetNumberOfComponents();
+      const auto labels = voxplex::ReadLabels(chosen, {}, voxplex::ThreadsFor(0));
+      for (int id = 1; id <= labels.NumberOfLabels(); ++id)
+      {
+        counts[labels.Values()[static_cast<std::size_t>(id)]] =
+          labels.Counts()[static_cast<std::size_t>(id)];
+      }
+    },
+    "There is not enough memory to count the voxels of labels.", "Counting voxels failed: ");
+  return counts;
+}
+
 void vtkImageToSimplexMeshFilter::SetInputArrayToProcess(
   int index, int port, int connection, int association, const char* name)
 {

@@ -29,11 +29,13 @@
  * - parameters out of range, both Delta and NumberOfElements, a NumberOfElements that no Delta
  *   gives, a label in SetLabelSize(), SetInterfaceSize(), AddLabel() or ExcludeLabel() that the
  *   image does not have;
- * - a mesh that is estimated not to fit in memory, an empty mesh;
+ * - a size image that lies beside the image, a mesh that is estimated not to fit in memory, an
+ *   empty mesh;
  * - the errors that the subclass adds.
  *
  * Warnings are reported with vtkWarningMacro: labels of the image that the mesh lacks because Delta
- * is too coarse for them, sizes that were raised, and a ContentionManager that was replaced.
+ * is too coarse for them, sizes that were raised, a size image that does not cover the mesh, and a
+ * ContentionManager that was replaced.
  *
  * @par Progress and abort
  * Progress is reported from the thread that called Update(), at least ten times a second during
@@ -66,6 +68,7 @@
 #include "vtkVoxplexModule.h" // For export macro
 
 #include <functional> // For std::function
+#include <map>        // For std::map
 #include <memory>     // For std::unique_ptr
 #include <string>     // For std::string
 
@@ -421,6 +424,19 @@ public:
   void SetLabelRow(vtkTypeInt64 label, double size, bool meshed);
   void ClearLabelRows();
   ///@}
+
+#ifndef __VTK_WRAP__
+  /**
+   * The numbers of voxels of the labels that an array of an image has, for such a table. Background
+   * is left out, as are voxels that the image hides. Of several components, all count.
+   * @param image any image; it is not changed
+   * @param association vtkDataObject::FIELD_ASSOCIATION_POINTS or _CELLS
+   * @param name an empty one means the default, as in SetInputArrayToProcess()
+   * @param message why there are no labels, for InTermsOf(); empty if there are
+   */
+  static std::map<vtkTypeInt64, vtkTypeInt64> CountLabels(
+    vtkImageData* image, int association, const std::string& name, std::string& message);
+#endif
 
   ///@{
   /**

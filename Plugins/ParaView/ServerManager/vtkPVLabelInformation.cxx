@@ -9,6 +9,8 @@
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkImageToSimplexMeshFilter.h"
 #include "vtkMultiProcessStream.h"
 #include "vtkObjectFactory.h"
 #include "vtkStringArray.h"
@@ -52,6 +54,7 @@ std::vector<std::string> TextsOf(vtkAbstractArray* array)
 void vtkPVLabelInformation::CopyFromObject(vtkObject* object)
 {
   this->Labels.clear();
+  this->ErrorMessage.clear();
   vtkDataObject* data = nullptr;
   if (auto* const port = vtkAlgorithmOutput::SafeDownCast(object))
   {
@@ -68,7 +71,23 @@ void vtkPVLabelInformation::CopyFromObject(vtkObject* object)
   {
     this->ReadCells(data);
     this->ReadTable(data->GetFieldData());
+    auto* const image = vtkImageData::SafeDownCast(data);
+    if (image && image->GetNumberOfPoints() > 0 && this->Association >= 0)
+    {
+      this->ReadVoxels(image);
+    }
   }
+}
+
+void vtkPVLabelInformation::ReadVoxels(vtkImageData* image)
+{
+  using Filter = vtkImageToSimplexMeshFilter;
+  for (const auto& [value, voxels] :
+    Filter::CountLabels(image, this->Association, this->ArrayName, this->ErrorMessage))
+  {
+    this->Labels[value].Voxels = voxels;
+  }
+  this->ErrorMessage = Filter::InTermsOf(Filter::VOCABULARY_PARAVIEW, this->ErrorMessage);
 }
 
 void vtkPVLabelInformation::ReadCells(vtkDataObject* data)
@@ -129,18 +148,21 @@ void vtkPVLabelInformation::AddInformation(vtkPVInformation* other)
     {
       LabelEntry& own = this->Labels[value];
       own = own == LabelEntry() ? label : own;
+      own.Voxels = std::max(own.Voxels, label.Voxels); // each process has the whole image
     }
+    this->ErrorMessage = this->Labels.empty() ? labels->ErrorMessage : "";
   }
 }
 
 void vtkPVLabelInformation::CopyToStream(vtkClientServerStream* stream)
 {
   stream->Reset();
-  *stream << vtkClientServerStream::Reply << static_cast<int>(this->Labels.size());
+  *stream << vtkClientServerStream::Reply << this->ErrorMessage.c_str()
+          << static_cast<int>(this->Labels.size());
   for (const auto& [value, label] : this->Labels)
   {
     *stream << value << label.Name.c_str() << static_cast<int>(label.HasColor) << label.Color[0]
-            << label.Color[1] << label.Color[2];
+            << label.Color[1] << label.Color[2] << label.Voxels;
   }
   *stream << vtkClientServerStream::End;
 }
@@ -150,6 +172,7 @@ void vtkPVLabelInformation::CopyFromStream(const vtkClientServerStream* stream)
   this->Labels.clear();
   int count = 0;
   int argument = 0;
+  stream->GetArgument(0, argument++, &this->ErrorMessage);
   stream->GetArgument(0, argument++, &count);
   for (int i = 0; i < count; ++i)
   {
@@ -163,6 +186,7 @@ void vtkPVLabelInformation::CopyFromStream(const vtkClientServerStream* stream)
     {
       stream->GetArgument(0, argument++, &component);
     }
+    stream->GetArgument(0, argument++, &label.Voxels);
     label.HasColor = hasColor != 0;
     this->Labels.emplace(value, label);
   }
@@ -170,12 +194,12 @@ void vtkPVLabelInformation::CopyFromStream(const vtkClientServerStream* stream)
 
 void vtkPVLabelInformation::CopyParametersToStream(vtkMultiProcessStream& stream)
 {
-  stream << this->PortNumber;
+  stream << this->PortNumber << this->Association << this->ArrayName;
 }
 
 void vtkPVLabelInformation::CopyParametersFromStream(vtkMultiProcessStream& stream)
 {
-  stream >> this->PortNumber;
+  stream >> this->PortNumber >> this->Association >> this->ArrayName;
 }
 
 void vtkPVLabelInformation::PrintSelf(ostream& os, vtkIndent indent)

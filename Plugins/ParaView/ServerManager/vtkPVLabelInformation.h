@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkPVLabelInformation
- * @brief   names and colours of the labels of a data set, gathered from the server
+ * @brief   the labels of a data set, their names, colours and voxels, gathered from the server
  *
  * The data set says them in its field data: `LabelValues` (integers), `LabelNames` (strings, or their bytes),
  * `LabelColors` (3 components from 0 to 1, optional; a NaN row means none), all of the same length. What
  * is wrongly formed is ignored. Besides, the values that occur in the cell array `Label` are gathered, so that labels without a
- * name can be listed, too.
+ * name can be listed, too. Those of an image are counted if an array is chosen (SetArray()).
  *
  * The object to gather from is an algorithm; its output PortNumber is taken. Field data does not travel in
  * vtkPVDataInformation, which knows the arrays' names only.
@@ -24,6 +24,7 @@
 
 class vtkDataObject;
 class vtkFieldData;
+class vtkImageData;
 
 class VTKVOXPLEXSERVERMANAGER_EXPORT vtkPVLabelInformation : public vtkPVInformation
 {
@@ -38,6 +39,20 @@ public:
   vtkGetMacro(PortNumber, int);
   ///@}
 
+  /**
+   * The array of an image whose labels are counted. An empty name means the default of
+   * vtkImageToSimplexMeshFilter. At first nothing is counted.
+   * @param association vtkDataObject::FIELD_ASSOCIATION_POINTS or _CELLS
+   */
+  void SetArray(int association, const std::string& name)
+  {
+    this->Association = association;
+    this->ArrayName = name;
+  }
+
+  /** Why no labels were counted, for the user; empty if they were, and if there was no image. */
+  const std::string& GetErrorMessage() const { return this->ErrorMessage; }
+
   void CopyFromObject(vtkObject* object) override;
   void AddInformation(vtkPVInformation* other) override;
   void CopyToStream(vtkClientServerStream* stream) override;
@@ -51,11 +66,12 @@ public:
     std::string Name; ///< empty if it has none
     bool HasColor = false;
     std::array<double, 3> Color{};
+    vtkTypeInt64 Voxels = 0; ///< those that were counted
 
     bool operator==(const LabelEntry& other) const
     {
       return this->Name == other.Name && this->HasColor == other.HasColor &&
-        this->Color == other.Color;
+        this->Color == other.Color && this->Voxels == other.Voxels;
     }
   };
   using LabelMap = std::map<vtkTypeInt64, LabelEntry>;
@@ -77,8 +93,12 @@ private:
 
   void ReadTable(vtkFieldData* fields);
   void ReadCells(vtkDataObject* data);
+  void ReadVoxels(vtkImageData* image);
 
   int PortNumber = 0;
+  int Association = -1; ///< of points or of cells; or nothing is counted
+  std::string ArrayName;
+  std::string ErrorMessage;
 #ifndef __VTK_WRAP__
   LabelMap Labels;
 #endif

@@ -7,7 +7,6 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVDataInformation.h"
-#include "vtkPVLabelInformation.h"
 #include "vtkPVSession.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSessionProxyManager.h"
@@ -26,17 +25,6 @@ namespace
 {
 
 using Color = std::array<double, 3>;
-
-/** Neighbouring labels get hues far from each other: steps of the golden ratio. */
-Color MakeColor(vtkTypeInt64 label)
-{
-  const double hue = std::fmod(static_cast<double>(label) * 0.6180339887498949, 1.0);
-  const bool odd = label % 2 != 0;
-  Color color;
-  vtkMath::HSVToRGB(
-    hue, odd ? 0.45 : 0.62, odd ? 0.95 : 0.82, color.data(), color.data() + 1, color.data() + 2);
-  return color;
-}
 
 /** Two strings a category, and its colour. */
 class Categories
@@ -98,6 +86,22 @@ void vtkSMLabelColorsProxy::Gather(
   source->GatherInformation(labels, vtkPVSession::DATA_SERVER);
 }
 
+/** Without a colour, neighbouring labels get hues far from each other: steps of the golden ratio. */
+Color vtkSMLabelColorsProxy::ColorOf(
+  vtkTypeInt64 value, const vtkPVLabelInformation::LabelEntry& label)
+{
+  if (label.HasColor)
+  {
+    return label.Color;
+  }
+  const double hue = std::fmod(static_cast<double>(value) * 0.6180339887498949, 1.0);
+  const bool odd = value % 2 != 0;
+  Color color;
+  vtkMath::HSVToRGB(
+    hue, odd ? 0.45 : 0.62, odd ? 0.95 : 0.82, color.data(), color.data() + 1, color.data() + 2);
+  return color;
+}
+
 void vtkSMLabelColorsProxy::Apply(vtkPVLabelInformation* labels, vtkSMSessionProxyManager* manager)
 {
   if (labels->GetLabels().empty())
@@ -117,7 +121,7 @@ void vtkSMLabelColorsProxy::Apply(vtkPVLabelInformation* labels, vtkSMSessionPro
     }
     for (const auto& [value, label] : labels->GetLabels())
     {
-      categories.Add(value, label.Name, label.HasColor ? label.Color : MakeColor(value));
+      categories.Add(value, label.Name, ColorOf(value, label));
     }
     categories.SetTo(map);
     // Otherwise ParaView's colour map editor looks for the array's values and asks the user what it did.

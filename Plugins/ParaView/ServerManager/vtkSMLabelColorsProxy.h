@@ -15,10 +15,10 @@
 #ifndef vtkSMLabelColorsProxy_h
 #define vtkSMLabelColorsProxy_h
 
+#include "vtkPVLabelInformation.h" // For LabelEntry
 #include "vtkSMProxy.h"
 #include "vtkVoxplexServerManagerModule.h" // For export macro
 
-class vtkPVLabelInformation;
 class vtkSMOutputPort;
 class vtkSMSourceProxy;
 
@@ -36,6 +36,12 @@ public:
 
   /** Fills the information from one output of a source. */
   static void Gather(vtkSMSourceProxy* source, unsigned int port, vtkPVLabelInformation* labels);
+
+#ifndef __VTK_WRAP__
+  /** The colour that a label has in these colour maps. */
+  static std::array<double, 3> ColorOf(
+    vtkTypeInt64 value, const vtkPVLabelInformation::LabelEntry& label);
+#endif
 
   /** Sets the colour maps of the session's `Label` and `Labels`. Does nothing without labels. */
   static void Apply(vtkPVLabelInformation* labels, vtkSMSessionProxyManager* manager);

@@ -5,12 +5,18 @@
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDataObject.h"
 #include "vtkImageData.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <cmath>
+#include <map>
 #include <set>
+#include <string>
 #include <utility>
 
 using namespace testing;
@@ -68,6 +74,45 @@ void TestFullImage()
   CHECK(InterfacePairs(filter) == Pairs({ { 1, 0 }, { 2, 0 }, { 2, 1 } }));
 }
 
+using Counts = std::map<vtkTypeInt64, vtkTypeInt64>;
+
+/** Of points, of cells, of two components; what has no labels says why. */
+void TestCounts()
+{
+  using Filter = vtkImageToSimplexMeshFilter;
+  std::string message;
+  Placement small;
+  small.Extent = { 0, 3, 0, 3, 0, 3 };
+  const auto halves = [](const Vector& x) { return x[0] < 0.9 ? 0.0 : x[0] < 1.9 ? 7.0 : 300.0; };
+  const auto image = MakeImage(small, halves, VTK_SHORT);
+  CHECK(Filter::CountLabels(image, 0, "", message) == Counts({ { 7, 16 }, { 300, 32 } }));
+  CHECK(Filter::CountLabels(image, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Segmentation",
+          message) == Counts({ { 7, 16 }, { 300, 32 } }));
+  CHECK(message.empty(), message);
+  CHECK(Filter::CountLabels(image, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Segmentation", message)
+          .empty());
+  CHECK(message.find("no such array") != std::string::npos, message);
+
+  vtkDataArray* const labels = image->GetPointData()->GetScalars();
+  labels->SetComponent(5, 0, -2.0);
+  CHECK(Filter::CountLabels(image, 0, "", message).empty());
+  CHECK(message.find("-2") != std::string::npos, message);
+
+  vtkNew<vtkIntArray> frames;
+  frames->SetNumberOfComponents(2);
+  frames->SetNumberOfTuples(64);
+  frames->FillComponent(0, 0.0);
+  frames->FillComponent(1, 5.0);
+  frames->SetComponent(9, 0, 6.0);
+  image->GetPointData()->SetScalars(frames);
+  CHECK(Filter::CountLabels(image, 0, "", message) == Counts({ { 5, 64 }, { 6, 1 } }));
+
+  small.Cells = true;
+  const auto cells = MakeImage(small, halves, VTK_DOUBLE);
+  CHECK(Filter::CountLabels(cells, 0, "", message) == Counts({ { 7, 9 }, { 300, 9 } }));
+  CHECK(message.empty(), message);
+}
+
 } // namespace
 
 int TestTetMeshLabels(int, char*[])
@@ -75,5 +120,6 @@ int TestTetMeshLabels(int, char*[])
   TestTouching();
   TestNested();
   TestFullImage();
+  TestCounts();
   return Result();
 }

@@ -11,7 +11,7 @@ import paraview.simple
 
 def loaded_files():
     with open("/proc/self/maps", encoding="utf-8") as maps:
-        return {line.split()[-1] for line in maps if "oxplex" in line}
+        return {path for path in (line.split()[-1] for line in maps) if "oxplex" in os.path.basename(path)}
 
 
 def main():

@@ -5,13 +5,15 @@
  * @brief   works with the VoxplexMeshing plugin as a user would, in ParaView's window
  *
  * Starts when ParaView has started. It looks for the filters in the menu and in the quick launch, reads the segmentation
- * VOXPLEX_TEST_ATLAS, meshes it through the menu and the Apply button, looks at the properties panel and at the colour map, presses
- * Abort while the filter executes, and saves pictures of the window into the folder VOXPLEX_TEST_OUTPUT.
+ * VOXPLEX_TEST_ATLAS, meshes it through the menu and the Apply button, looks at the properties panel and at the colour map, works
+ * with the table of labels, presses Abort while the filter executes, and saves pictures of the window into the folder
+ * VOXPLEX_TEST_OUTPUT. At last it connects to the server VOXPLEX_TEST_PVSERVER, which it starts.
  * What is found wrong goes to standard error; the exit status of the program is 0 only if nothing was.
  */
 #ifndef pqVoxplexWindowTest_h
 #define pqVoxplexWindowTest_h
 
+#include <QList>
 #include <QObject>
 #include <QString>
 #include <QStringList>
@@ -19,6 +21,7 @@
 class QAction;
 class QMainWindow;
 class QMenu;
+class QTreeView;
 class pqPipelineSource;
 class vtkSMProxy;
 
@@ -45,6 +48,11 @@ private:
   void testMeshing();
   void testPanel();
   void testDependentProperties();
+  void testLabelTable();
+  void testLabelChanges(QTreeView* view);
+  void testLabelSizes(QTreeView* view);
+  void testOtherTables();
+  void testServer();
   void testColors();
   void takePicture();
   void testWaiting();
@@ -57,6 +65,11 @@ private:
   /** Shows Filters and Filters > Voxplex, and saves the window meanwhile. */
   void openMenu(const QString& picture);
   QMenu* findMenu() const;
+  /** The table of labels in the panel of a source, which becomes the active one. */
+  QTreeView* labelTable(pqPipelineSource* source);
+  void search(const QTreeView* view, const QString& text);
+  /** What the property LabelTable has, with what Apply has not yet set if that is asked for. */
+  QList<double> labelRows(bool unchecked) const;
   QAction* findAction(const QString& label) const;
   vtkSMProxy* colorMap() const;
   void checkShown(const QStringList& names, bool shown);
