@@ -48,7 +48,7 @@ vtkSmartPointer<TData> Read(
     extension, " file");
   io::CheckStructureOfMesh(io::InputFile(path), kind);
   const io::VTKMessages messages;
-  vtkNew<TReader> reader;
+  vtkNew<io::WithRoomForTexts<TReader>> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
   messages.CheckErrors();

@@ -424,7 +424,7 @@ int Main(int argc, const char* const* argv)
   }
   catch (const std::bad_alloc&)
   {
-    std::cerr << NameOptions(words, "voxplex: out of memory; try a larger --delta or --size\n");
+    std::cerr << "voxplex: out of memory; try larger elements (delta, size)\n"; // takes none itself
   }
   catch (const std::exception& error)
   {

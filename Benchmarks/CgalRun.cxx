@@ -31,6 +31,7 @@ using MeshDomain = CGAL::Labeled_mesh_domain_3<Kernel>;
 /** A view of the volume. CGAL reads the same voxels and does not own them. */
 CGAL::Image_3 MakeImage(const LabelVolume& volume)
 {
+  using namespace CGAL; // which has ImageIO's names since 6.2
   _image* const image = _initImage();
   image->xdim = static_cast<std::size_t>(volume.Dimensions[0]);
   image->ydim = static_cast<std::size_t>(volume.Dimensions[1]);

@@ -5,12 +5,12 @@
 #include "Base/Error.h"
 #include "Mesh/TimeSlice.h"
 #include "Private/Execution.h"
+#include "Private/LabelledMesh.h"
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
-#include "vtkCellTypes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -71,16 +71,17 @@ private:
 namespace
 {
 
-/** The array itself if its memory can be read as doubles, else a copy. */
-vtkSmartPointer<vtkDoubleArray> Doubles(vtkDataArray* array)
+/** The array itself if its memory can be read as that of an Array, else a copy. */
+template <class Array>
+vtkSmartPointer<Array> As(vtkDataArray* array)
 {
-  vtkSmartPointer<vtkDoubleArray> doubles = vtkDoubleArray::SafeDownCast(array);
-  if (doubles == nullptr)
+  vtkSmartPointer<Array> same = Array::SafeDownCast(array);
+  if (same == nullptr)
   {
-    doubles = vtkSmartPointer<vtkDoubleArray>::New();
-    doubles->DeepCopy(array);
+    same = vtkSmartPointer<Array>::New();
+    same->DeepCopy(array);
   }
-  return doubles;
+  return same;
 }
 
 template <typename Value, typename Array>
@@ -114,25 +115,11 @@ void CheckCells(vtkUnstructuredGrid* mesh)
     const vtkIdType points = mesh->GetCells()->GetCellSize(c);
     if (!(type == VTK_POLY_VERTEX && points == 5) && !(type == VTK_TETRA && points == 4))
     {
-      throw InputError("Cell " + std::to_string(c) + " is a " +
-        vtkCellTypes::GetClassNameFromTypeId(type) + " of " + std::to_string(points) +
-        " points; only pentatopes (VTK_POLY_VERTEX of 5 points) and tetrahedra (VTK_TETRA) can be "
+      throw InputError("Cell " + std::to_string(c) + " is a " + voxplex::CellText(mesh, c) +
+        "; only pentatopes (VTK_POLY_VERTEX of 5 points) and tetrahedra (VTK_TETRA) can be "
         "cut at a time.");
     }
   }
-}
-
-/** Cells with 64-bit ids, by reference or copied. */
-vtkSmartPointer<vtkCellArray> WideCells(vtkCellArray* cells)
-{
-  if (cells->IsStorage64Bit())
-  {
-    return cells;
-  }
-  auto wide = vtkSmartPointer<vtkCellArray>::New();
-  wide->DeepCopy(cells);
-  wide->ConvertTo64BitStorage();
-  return wide;
 }
 
 //----------------------------------------------------------------------------------------------------
@@ -208,11 +195,10 @@ void vtkPentatopeMeshTimeSlice::Internals::Prepare(
   else
   {
     CheckCells(mesh);
-    this->Times = Doubles(TimesOf(mesh, timeArrayName));
-    this->Points = Doubles(mesh->GetPoints()->GetData());
-    const vtkSmartPointer<vtkCellArray> cells = WideCells(mesh->GetCells());
-    this->Offsets = cells->GetOffsetsArray64();
-    this->Connectivity = cells->GetConnectivityArray64();
+    this->Times = As<vtkDoubleArray>(TimesOf(mesh, timeArrayName));
+    this->Points = As<vtkDoubleArray>(mesh->GetPoints()->GetData());
+    this->Offsets = As<vtkTypeInt64Array>(mesh->GetCells()->GetOffsetsArray());
+    this->Connectivity = As<vtkTypeInt64Array>(mesh->GetCells()->GetConnectivityArray());
     this->Slicer.emplace(voxplex::SpaceTimeMesh{ ValuesOf<double>(this->Points.Get()),
       ValuesOf<double>(this->Times.Get()), ValuesOf<long long>(this->Offsets.Get()),
       ValuesOf<long long>(this->Connectivity.Get()) });

@@ -102,13 +102,28 @@ LabelTable GetLabelTable(vtkFieldData* fields)
     {
       std::array<double, 3> color;
       colors->GetTuple(i, color.data());
-      if (!std::isnan(color[0] + color[1] + color[2]))
+      if (std::isfinite(color[0] + color[1] + color[2]))
       {
         entry.Color = color;
       }
     }
   }
   return table;
+}
+
+void LeaveOutOtherTexts(LabelTable& table, std::vector<std::string>& warnings)
+{
+  std::erase_if(table.Entries,
+    [&warnings](const auto& row)
+    {
+      const bool isText = IsUTF8(row.second.Name);
+      if (!isText)
+      {
+        warnings.push_back(
+          "the name of label " + std::to_string(row.first) + " is not in UTF-8, and is not used");
+      }
+      return !isText;
+    });
 }
 
 void SetLabelTable(vtkFieldData* fields, const LabelTable& table)

@@ -54,6 +54,9 @@ std::vector<std::string> TextsOf(vtkFieldData* fields, const char* name);
  */
 LabelTable GetLabelTable(vtkFieldData* fields);
 
+/** Removes names that are not UTF-8, with a warning for each. */
+void LeaveOutOtherTexts(LabelTable& table, std::vector<std::string>& warnings);
+
 /** Replaces the table in a data object's field data. An empty one leaves no arrays. */
 void SetLabelTable(vtkFieldData* fields, const LabelTable& table);
 

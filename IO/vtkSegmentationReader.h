@@ -91,9 +91,9 @@ public:
   /**
    * A text table with names and colours of the labels: that of an atlas, or of FreeSurfer, ITK-SNAP or
    * 3D Slicer, or `value name` or `value,name,red,green,blue` in each line. Documentation/FileFormats.md
-   * describes them. Default none: names are then those that the image has itself (3D Slicer's .seg.nrrd),
-   * or, if it has none, those of a table of the same name beside it: x.nii.txt beside x.nii.gz. If that is no
-   * table, there is a warning and it is not used; a table that is set here must be one.
+   * describes them. Default none: names are then those that the image has itself (3D Slicer's .seg.nrrd, field
+   * data of VTK's), or, if it has none, those of a table of the same name beside it: x.nii.txt beside
+   * x.nii.gz. If that is no table, there is a warning and it is not used; a table that is set here must be one.
    */
   vtkSetFilePathMacro(LabelTableFileName);
   vtkGetFilePathMacro(LabelTableFileName);

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/ElementSizes.h"
 
+#include "Base/Error.h"
+#include "Base/NumberText.h"
+#include "Geometry/Box.h"
+
 #include "vtkDataArray.h"
 #include "vtkImplicitFunction.h"
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace voxplex
 {
@@ -20,12 +25,74 @@ double AsBound(double size)
 {
   return size > 0.0 ? size : NoBound;
 }
+
+/** Of all voxels, in the world. */
+Box<3> BoundsOf(const ImageFrame& frame)
+{
+  Box<3> bounds;
+  bounds.Min.fill(NoBound);
+  bounds.Max.fill(-NoBound);
+  for (unsigned corner = 0; corner < 8; ++corner)
+  {
+    Point<3> index;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      const bool high = (corner >> a) & 1u;
+      index[a] = (high ? static_cast<double>(frame.Grid.Dimensions[a]) : 0.0) - 0.5;
+    }
+    const Point<3> x = frame.ToWorld(frame.Grid.ToFrame(index));
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      bounds.Min[a] = std::min(bounds.Min[a], x[a]);
+      bounds.Max[a] = std::max(bounds.Max[a], x[a]);
+    }
+  }
+  return bounds;
+}
+
+std::string Describe(const Box<3>& box)
+{
+  std::string text;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    text += (a > 0 ? ", " : "") + std::string(1, "xyz"[a]) + " from " + NumberText(box.Min[a]) +
+      " to " + NumberText(box.Max[a]);
+  }
+  return text;
+}
 } // namespace
+
+void CheckOverlap(const ImageFrame& sizes, const ImageFrame& image)
+{
+  const Box<3> theirs = BoundsOf(sizes);
+  const Box<3> ours = BoundsOf(image);
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    if (theirs.Min[a] >= ours.Max[a] || theirs.Max[a] <= ours.Min[a])
+    {
+      throw InputError("The image of sizes ({size-image}) lies beside the image: it has " +
+        Describe(theirs) + "; the image has " + Describe(ours) +
+        ". Correct its spacing, origin or direction.");
+    }
+  }
+}
 
 SizeImage::SizeImage(const ImageFrame& frame, vtkDataArray* sizes)
   : Frame(frame)
   , Sizes(sizes)
 {
+}
+
+bool SizeImage::Covers(const Point<3>& x) const
+{
+  const Point<3> index = this->Frame.Grid.ToIndex(this->Frame.ToFrame(x));
+  bool isCovered = true;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    isCovered &=
+      index[a] >= -1.0 && index[a] <= static_cast<double>(this->Frame.Grid.Dimensions[a]);
+  }
+  return isCovered;
 }
 
 double SizeImage::At(const Point<3>& x) const

@@ -45,10 +45,16 @@ public:
    */
   double At(const Point<3>& x) const;
 
+  /** Whether a point of the world is in a voxel, or at most half a voxel away. */
+  bool Covers(const Point<3>& x) const;
+
 private:
   ImageFrame Frame;
   vtkSmartPointer<vtkDataArray> Sizes;
 };
+
+/** Throws InputError, with the bounds of both, if the image of sizes lies beside the image that is meshed. */
+void CheckOverlap(const ImageFrame& sizes, const ImageFrame& image);
 
 /** How the images lie that a D-dimensional mesh is made from. */
 template <int D>

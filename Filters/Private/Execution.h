@@ -19,6 +19,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 
 /**
  * For ProcessRequest(): what stopped the last execution does not stop the next one. This request comes before the first
@@ -96,6 +97,15 @@ std::string CatchFailure(Work&& work, const char* outOfMemory, const std::string
   catch (const std::bad_alloc&)
   {
     return outOfMemory;
+  }
+  catch (const std::system_error& error)
+  {
+    const bool isThread = error.code() == std::errc::resource_unavailable_try_again;
+    return failed +
+      (isThread
+          ? "a thread cannot be started; raise the limits of processes and memory (ulimit -u, "
+            "-v), or lower {threads}."
+          : error.what());
   }
   catch (const std::exception& error)
   {

@@ -5,10 +5,13 @@
 #include "Base/Error.h"
 #include "Image/LabelValue.h"
 
+#include "vtkCell.h"
+#include "vtkCellArray.h"
 #include "vtkCellType.h"
-#include "vtkCellTypes.h"
 #include "vtkDataArray.h"
+#include "vtkGenericCell.h"
 #include "vtkPointData.h"
+#include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <cmath>
@@ -96,9 +99,8 @@ void ReadCells(vtkUnstructuredGrid* grid, vtkAbstractArray* chosen, int type, Si
     grid->GetCells()->GetCellAtId(c, size, ids);
     if (grid->GetCellType(c) != type || size != D + 1)
     {
-      throw InputError("Cell " + std::to_string(c) + " of the mesh is a " +
-        vtkCellTypes::GetClassNameFromTypeId(grid->GetCellType(c)) + " of " + std::to_string(size) +
-        " points; only tetrahedra (VTK_TETRA), or only pentatopes (VTK_POLY_VERTEX of five "
+      throw InputError("Cell " + std::to_string(c) + " of the mesh is a " + CellText(grid, c) +
+        "; only tetrahedra (VTK_TETRA), or only pentatopes (VTK_POLY_VERTEX of five "
         "points), can be measured.");
     }
     auto& simplex = mesh.Simplices[static_cast<std::size_t>(c)];
@@ -116,6 +118,14 @@ void ReadCells(vtkUnstructuredGrid* grid, vtkAbstractArray* chosen, int type, Si
 bool HasPentatopes(vtkUnstructuredGrid* grid)
 {
   return grid->GetNumberOfCells() > 0 && grid->GetCellType(0) == VTK_POLY_VERTEX;
+}
+
+std::string CellText(vtkUnstructuredGrid* grid, vtkIdType cell)
+{
+  const auto one =
+    vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(grid->GetCellType(cell)));
+  return std::string(one ? one->GetClassName() : "cell of unknown type") + " of " +
+    std::to_string(grid->GetCells()->GetCellSize(cell)) + " points";
 }
 
 SimplexMesh<3> ReadTetrahedra(vtkUnstructuredGrid* grid, vtkAbstractArray* labels)

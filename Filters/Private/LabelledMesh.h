@@ -9,6 +9,10 @@
 
 #include "Mesh/SimplexMesh.h"
 
+#include "vtkType.h"
+
+#include <string>
+
 class vtkAbstractArray;
 class vtkUnstructuredGrid;
 
@@ -17,6 +21,9 @@ namespace voxplex
 
 /** Whether the first cell is a pentatope: a VTK_POLY_VERTEX of five points. */
 bool HasPentatopes(vtkUnstructuredGrid* grid);
+
+/** What messages call a cell: "vtkHexahedron of 8 points". */
+std::string CellText(vtkUnstructuredGrid* grid, vtkIdType cell);
 
 /**
  * The tetrahedra, as they lie.

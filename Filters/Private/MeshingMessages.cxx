@@ -19,12 +19,13 @@ namespace voxplex
 namespace
 {
 
+/** With the order of its axes, which arrays of Python have reversed. */
 std::string DescribeVoxel(const std::vector<std::int64_t>& voxel)
 {
-  std::string text;
-  for (const std::int64_t i : voxel)
+  std::string text = voxel.size() > 3 ? "(i, j, k, t) = (" : "(i, j, k) = (";
+  for (const std::int64_t& i : voxel)
   {
-    text += (text.empty() ? "(" : ", ") + std::to_string(i);
+    text += (&i == voxel.data() ? "" : ", ") + std::to_string(i);
   }
   return text + ")";
 }

@@ -21,6 +21,7 @@
 #include "vtkMeshingStatistics.h"
 #include "vtkNew.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -76,6 +77,14 @@ public:
         filter->GetInputAbstractArrayToProcess(1, inputVector, association);
       const voxplex::ChosenArray chosen = voxplex::ChooseScalars(image, values, association,
         voxplex::ImageContent::GreyValues, "image of element sizes", "");
+      if constexpr (D == 3)
+      {
+        voxplex::CheckOverlap(chosen.Frame, frame);
+      }
+      else
+      {
+        voxplex::CheckOverlap(chosen.Frame, frame.Space);
+      }
       this->Sizes->Image.emplace(chosen.Frame, chosen.Array);
     }
     const bool isDeltaIdle = filter->DeltaIsSuggestion && filter->NumberOfElements > 0;
@@ -181,12 +190,34 @@ public:
         voxplex::NumberText(this->Statistics().Delta) + "; use a smaller one.");
     }
     this->Statistics().Times.LabelField += readingTime;
+    this->WarnOfSizes(mesh);
     return true;
   }
 
   voxplex::MeshingStatistics& Statistics() { return this->Filter->Private->Statistics->Edit(); }
 
 private:
+  /** If the image of sizes does not reach as far as the mesh. */
+  void WarnOfSizes(const voxplex::SimplexMesh<D>& mesh)
+  {
+    const voxplex::ElementSizes<D>& sizes = *this->Sizes;
+    const auto outside = std::count_if(mesh.Points.begin(), mesh.Points.end(),
+      [&sizes](const voxplex::Point<D>& p)
+      {
+        const voxplex::Point<D> x = sizes.Frame.ToWorld(p);
+        return sizes.Image && !sizes.Image->Covers({ x[0], x[1], x[2] });
+      });
+    if (outside > 0)
+    {
+      const std::string warning = "The image of sizes ({size-image}) does not cover " +
+        std::to_string(outside) + " of " + std::to_string(mesh.Points.size()) +
+        " vertices of the mesh; there the nearest of its sizes holds.";
+      this->Filter->Private->Warnings.push_back(
+        vtkImageToSimplexMeshFilter::InTermsOf(this->Filter->Vocabulary, warning));
+      vtkWarningWithObjectMacro(this->Filter, << this->Filter->Private->Warnings.back());
+    }
+  }
+
   /** Of sizes, against those of the image. */
   void CheckLabels(const voxplex::LabelImage<D>& image) const
   {

@@ -3,6 +3,7 @@
 #include "Readers.h"
 
 #include "Placement.h"
+#include "Space.h"
 #include "Text.h"
 #include "VTKFileStructure.h"
 #include "VTKMessages.h"
@@ -28,6 +29,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -103,7 +105,7 @@ vtkSmartPointer<vtkImageData> ReadLegacy(const InputFile& file, const VTKMessage
 vtkSmartPointer<vtkImageData> ReadXML(const InputFile& file, const VTKMessages& messages)
 {
   CheckStructureOfVTI(file);
-  vtkNew<vtkXMLImageDataReader> reader;
+  vtkNew<WithRoomForTexts<vtkXMLImageDataReader>> reader;
   reader->SetFileName(file.Path().c_str());
   reader->UpdateInformation();
   messages.CheckErrors();
@@ -207,9 +209,24 @@ ScalarType ScalarTypeOf(vtkDataArray* array)
   return *type;
 }
 
-/** Points or cells lie from the first on; a cell is half a step from its first point. */
-void SetGeometry(ScalarImage& result, vtkImageData* image, bool areCells)
+/** As field data say, which vtkSegmentationReader and 3D Slicer write. */
+Space SpaceOf(vtkImageData* image, Reading& reading)
 {
+  const std::vector<std::string> texts = TextsOf(image->GetFieldData(), "SPACE");
+  const std::string space = texts.size() == 1 ? texts.front() : ToString(Space::LPS);
+  if (space != ToString(Space::LPS) && space != ToString(Space::RAS))
+  {
+    reading.Warnings.push_back(
+      "it does not say where left, posterior and superior are (SPACE is '" + Excerpt(space) +
+      "'); its coordinates are taken for LPS");
+  }
+  return space == ToString(Space::RAS) ? Space::RAS : Space::LPS;
+}
+
+/** Points or cells lie from the first on; a cell is half a step from its first point. */
+void SetGeometry(ScalarImage& result, vtkImageData* image, Space space, bool areCells)
+{
+  const std::array<double, 3> signs = SignsFromLPS(space);
   std::array<int, 3> points{};
   image->GetDimensions(points.data());
   const int* const extent = image->GetExtent();
@@ -226,12 +243,14 @@ void SetGeometry(ScalarImage& result, vtkImageData* image, bool areCells)
     first[a] = extent[2 * axis] + (isBetween ? 0.5 : 0.0);
     for (int row = 0; row < 3; ++row)
     {
-      steps[a][static_cast<std::size_t>(row)] =
-        image->GetDirectionMatrix()->GetElement(row, axis) * image->GetSpacing()[axis];
+      const auto r = static_cast<std::size_t>(row);
+      steps[a][r] =
+        signs[r] * image->GetDirectionMatrix()->GetElement(row, axis) * image->GetSpacing()[axis];
     }
   }
   Vector3 origin{};
   image->TransformContinuousIndexToPhysicalPoint(first.data(), origin.data());
+  std::transform(signs.begin(), signs.end(), origin.begin(), origin.begin(), std::multiplies<>());
   SetSizes(result, sizes);
   Place(result, steps, origin);
 }
@@ -300,7 +319,9 @@ ScalarImage ReadVTK(const std::string& path, Reading& reading)
   const Labels labels = ChooseLabels(image);
   ScalarImage result;
   result.Type = ScalarTypeOf(labels.Array);
-  SetGeometry(result, image, labels.AreCells);
+  SetGeometry(result, image, SpaceOf(image, reading), labels.AreCells);
+  reading.Labels = GetLabelTable(image->GetFieldData());
+  LeaveOutOtherTexts(reading.Labels, reading.Warnings);
   const auto count = static_cast<vtkIdType>(result.NumberOfVoxels());
   RefuseIf(labels.Array->GetNumberOfTuples() != count, "it is truncated or damaged: its array ",
     NameOf(labels), " has ", labels.Array->GetNumberOfTuples(), " numbers of ", count);

@@ -122,7 +122,8 @@ ScalarImage ReadTIFF(const std::string& path, Reading& reading);
  *
  * Labels are the array of numbers with one component, of the points or of the cells. Of several it is the active
  * scalars. A cell with a label is a voxel, so that the first voxel lies half a spacing from the origin. What
- * vtkGhostType hides is background. Coordinates are taken as LPS.
+ * vtkGhostType hides is background. Field data SPACE tells whether coordinates are LPS or RAS; without it they are
+ * taken as LPS. Names and colours of labels come from field data as LabelTable.h has them.
  *
  * VTK has one window for the messages of all threads. While a file is read, those of this thread are collected, and
  * nothing of them is shown in it. vtkLogger prints them nevertheless, unless its verbosity is off.

@@ -120,16 +120,12 @@ LabelTable ReadSegments(const TextHeader& header, std::vector<std::string>& warn
       warnings.push_back("the segment '" + Excerpt(segment.Name()) +
         "' has a value that is not a label, and its name is not used");
     }
-    else if (!IsUTF8(segment.Name()))
-    {
-      warnings.push_back("the name of label " + std::to_string(segment.Label()) +
-        " is not in UTF-8, and is not used");
-    }
     else
     {
       table.Entries.emplace(segment.Label(), LabelTable::Entry{ segment.Name(), segment.Color() });
     }
   }
+  LeaveOutOtherTexts(table, warnings);
   return table;
 }
 

@@ -114,6 +114,7 @@ struct Structure
   bool IsAppended = false;
   bool IsBase64 = false;
   std::uint64_t AppendedTag = 0;   ///< where its element begins
+  int Depth = 0;                   ///< open elements
   bool IsInFields = false;         ///< and not in data of points or cells
   std::optional<Letters> OfBase64; ///< inside an array in base64
   bool IsInterrupted = false;      ///< what is in base64 has blanks or other letters within
@@ -257,8 +258,13 @@ void StartMesh(Structure& structure, const char** attributes)
 
 void StartElement(void* data, const char* elementName, const char** attributes)
 {
+  constexpr int deepest = 100; // VTK calls itself for each
   Structure& structure = At(data);
   const std::string_view name(elementName);
+  if (++structure.Depth > deepest)
+  {
+    structure.Wrong = "elements in more than " + std::to_string(deepest) + " others";
+  }
   if (structure.OfBase64 || structure.OfText)
   {
     ++structure.Nested;
@@ -338,6 +344,7 @@ void AddText(void* data, const char* text, int length)
 void EndElement(void* data, const char* /*name*/)
 {
   Structure& structure = At(data);
+  --structure.Depth;
   if (structure.Nested > 0)
   {
     --structure.Nested;

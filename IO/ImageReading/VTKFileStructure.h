@@ -11,8 +11,12 @@
 
 #include "InputFile.h"
 
+#include <vtkAbstractArray.h>
+
 #include <string>
 #include <string_view>
+
+class vtkXMLDataElement;
 
 namespace voxplex::io
 {
@@ -32,6 +36,34 @@ void CheckStructureOfVTI(const InputFile& file);
  * @param kind what the file must hold: UnstructuredGrid or PolyData
  */
 void CheckStructureOfMesh(const InputFile& file, std::string_view kind);
+
+/**
+ * One of VTK's readers. It takes texts from the file 1024 bytes at a time, and puts all of them into an array, even if
+ * that claims fewer: here there is room for them.
+ */
+template <typename TReader>
+class WithRoomForTexts : public TReader
+{
+public:
+  static WithRoomForTexts* New()
+  {
+    auto* const reader = new WithRoomForTexts;
+    reader->InitializeObjectBase();
+    return reader;
+  }
+
+protected:
+  int ReadArrayValues(vtkXMLDataElement* element, vtkIdType at, vtkAbstractArray* array,
+    vtkIdType first, vtkIdType count, typename TReader::FieldType type) override
+  {
+    constexpr vtkIdType most = 1024;
+    if (array->GetDataType() == VTK_STRING)
+    {
+      array->Resize(array->GetNumberOfTuples() + most);
+    }
+    return TReader::ReadArrayValues(element, at, array, first, count, type);
+  }
+};
 
 } // namespace voxplex::io
 

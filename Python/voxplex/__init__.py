@@ -18,7 +18,11 @@ VTK's Python wrapping, these are the C++ classes, and there are `vtkPentatopeMes
 `python3 -m voxplex` runs the command line.
 """
 
+import importlib.util
 from typing import Any, List
+
+if importlib.util.find_spec("numpy") is None:
+    raise ModuleNotFoundError("voxplex needs NumPy, which this Python does not find: pip install numpy", name="numpy")
 
 from .errors import ArgumentError, FileError, MeshingCancelled, MeshingError, MeshingWarning
 from .files import read_segmentation
@@ -41,14 +45,13 @@ def __dir__() -> List[str]:
 def __getattr__(name: str) -> Any:
     """The VTK classes. VTK is loaded with the first of them, not with the package."""
     if name.startswith("vtk"):
-        import importlib
         for module in _CLASSES:
             try:
                 found = importlib.import_module("." + module, __name__)
-            except ModuleNotFoundError as missing:
+            except ImportError as missing:
                 if missing.name == "vtkmodules":
-                    raise AttributeError(f"{name} needs VTK (pip install vtk)") from missing
-                if missing.name != f"{__name__}.{module}":
+                    raise AttributeError(f"{name}: {missing}") from missing
+                if not isinstance(missing, ModuleNotFoundError) or missing.name != f"{__name__}.{module}":
                     raise
                 continue
             if hasattr(found, name):

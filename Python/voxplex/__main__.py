@@ -5,16 +5,15 @@
 import os
 import sys
 
-from .installation import PROGRAM
+from .program import no_start, path
 
 
 def main() -> None:
     """Becomes the program: arguments, streams, signals and the exit status are its own."""
-    program = os.path.normpath(PROGRAM)
-    if not os.access(program, os.X_OK):
-        sys.exit(f"voxplex: the command line program is not installed: there is no {program}. It is built where "
-                 "GDCM and Boost are found.")
-    os.execv(program, ["voxplex", *sys.argv[1:]])
+    try:
+        os.execv(path(), ["voxplex", *sys.argv[1:]])
+    except OSError as error:
+        sys.exit("voxplex: " + no_start(error))
 
 
 if __name__ == "__main__":

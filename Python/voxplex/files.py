@@ -8,6 +8,7 @@ import contextlib
 import copy
 import errno
 import os
+import re
 import tempfile
 from typing import TYPE_CHECKING, Any, Iterator, List, Mapping, Optional, Tuple, Union
 
@@ -21,6 +22,8 @@ from .meshes import Mesh
 
 if TYPE_CHECKING:
     from typing import Literal
+
+_IS_FULL = re.compile(r"(/voxplex-\w{8}/|cannot write the (image|mesh):).*(No space left|quota exceeded)", re.DOTALL)
 
 
 def read_segmentation(path: Path, *, space: Literal["LPS", "RAS"] = "LPS", series_uid: Optional[str] = None,
@@ -80,12 +83,15 @@ def place_options(place: Mapping[str, Any]) -> List[str]:
 @contextlib.contextmanager
 def temporary_folder() -> Iterator[str]:
     """For files that only pass data. Raises FileError if there is no room for them."""
-    place = tempfile.gettempdir()
+    try:
+        place = tempfile.gettempdir()
+    except FileNotFoundError as error:
+        raise FileError(f"{error.strerror}; name one with the environment variable TMPDIR") from None
     try:
         with tempfile.TemporaryDirectory(prefix="voxplex-") as folder:
             yield folder
     except OSError as error:
-        if error.errno == errno.ENOSPC or isinstance(error, FileError) and "No space left" in str(error) and "voxplex-" in str(error):
+        if error.errno in (errno.ENOSPC, errno.EDQUOT) or isinstance(error, FileError) and _IS_FULL.search(str(error)):
             raise FileError(f"the temporary folder {place} is full, which the image and the mesh pass through; choose "
                             "another one with the environment variable TMPDIR") from error
         raise

@@ -8,12 +8,14 @@ are raised, warnings issued; Ctrl-C and whatever a callback raises end the progr
 
 from __future__ import annotations
 
+import errno
 import os
 import re
+import signal
 import subprocess
 import sys
 import warnings
-from typing import Any, Callable, Iterable, List, Optional, Tuple
+from typing import Any, Callable, Iterable, List, Optional, Tuple, Union
 
 from . import installation
 from .errors import ArgumentError, FileError, MeshingCancelled, MeshingError, MeshingWarning
@@ -28,12 +30,23 @@ _DOING = re.compile(r"cannot (?:(?:mesh|measure) '.*?'|(?:mesh|measure|read) the
 
 
 def path() -> str:
-    """Of the program. Raises RuntimeError if it was not built."""
-    program = os.path.normpath(installation.PROGRAM)
-    if not os.access(program, os.X_OK):
-        raise RuntimeError(f"the command line program is not installed: there is no {program}. It is built where "
-                           "GDCM and Boost are found")
-    return program
+    """Of the program; CMake builds it where GDCM and Boost are found."""
+    return os.path.normpath(installation.PROGRAM)
+
+
+def no_start(why: Union[OSError, str]) -> str:
+    """The message if the system, or its loader of libraries, does not start the program."""
+    program = path()
+    reason = f"{why}; "
+    if not os.path.exists(program):
+        reason = "it is not there; "
+    elif isinstance(why, PermissionError):
+        reason = "it may not be executed; take a disk that is not mounted with noexec, or "
+    elif isinstance(why, OSError) and why.errno in (errno.ENOENT, errno.ENOEXEC) and why.filename in (None, program):
+        reason = "it is made for another system or processor; "
+    elif isinstance(why, OSError):
+        return f"the program {program} cannot be started: {why}; limits (ulimit) may be too low"
+    return f"the program {program} cannot be started: {reason}install Voxplex again, or build it on this system"
 
 
 def run(arguments: List[str], progress: Optional[Progress] = None,
@@ -42,13 +55,16 @@ def run(arguments: List[str], progress: Optional[Progress] = None,
 
     words: what messages are to say in place of texts of the program's, such as the names of files that only pass data.
 
-    Raises MeshingError, ArgumentError or FileError with the program's message, MeshingCancelled, and what the callback
-    raises. Its warnings are issued as MeshingWarning, at the first caller outside of this package.
+    Raises MeshingError, ArgumentError or FileError with the program's message, MeshingCancelled, what the callback
+    raises, and RuntimeError if the program cannot be started. Its warnings are issued as MeshingWarning, at the first caller outside of this package.
     """
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be a function, not {type(progress).__name__}")
     command = [path(), *arguments, "--messages=python", *(["--progress"] if progress else [])]
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    try:
+        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    except OSError as error:
+        raise RuntimeError(no_start(error)) from None
     assert process.stderr is not None
     said: List[str] = []
     try:
@@ -111,7 +127,12 @@ def _failure(status: int, messages: List[str]) -> Exception:
     if status > 128:
         return MeshingCancelled(text)
     if status < 0:
-        return MeshingError(f"the program was ended by signal {-status}" + (": " + text if text else ""))
+        end = f"the program was ended by signal {-status} ({signal.strsignal(-status)})"
+        if -status == signal.SIGKILL:
+            end += ", most likely because memory ran out: take larger elements, or a smaller image"
+        return MeshingError(end + (": " + text if text else ""))
+    if status in (1, 127) and texts and texts == messages:  # it says nothing without its name
+        return RuntimeError(no_start(text))
     if status != 1:
         return MeshingError(f"the program ended with status {status}: {text}")
     found = _DOING.match(text)

@@ -8,13 +8,19 @@ from typing import Any, List, Optional, Sequence, Tuple
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints, vtkStringArray
-from vtkmodules.vtkCommonDataModel import (
-    vtkCellArray, vtkDataObject, vtkDataSetAttributes, vtkFieldData, vtkImageData, vtkPointSet, vtkPolyData,
-    vtkUnstructuredGrid)
-from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
-from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+
+try:
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+    from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints, vtkStringArray, vtkVersion
+    from vtkmodules.vtkCommonDataModel import (
+        vtkCellArray, vtkDataObject, vtkDataSetAttributes, vtkFieldData, vtkImageData, vtkPointSet, vtkPolyData,
+        vtkUnstructuredGrid)
+    from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+    if (vtkVersion().GetVTKMajorVersion(), vtkVersion().GetVTKMinorVersion()) < (9, 1):
+        raise ImportError(f"VTK is {vtkVersion().GetVTKVersion()}")
+except ImportError as missing:
+    raise ImportError(f"this needs VTK 9.1 or newer (pip install 'vtk>=9.1'): {missing}", name="vtkmodules") from missing
 
 from .fields import TEXTS, Fields, texts_of
 from .images import Image, from_components

@@ -10,6 +10,7 @@ import os
 import resource
 import shutil
 import struct
+import unittest
 import zlib
 from pathlib import Path
 
@@ -273,6 +274,24 @@ class Files(HostileTestCase):
         done = self.call("--input", "i.nrrd", **options)
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr, "^voxplex: cannot read 'i.nrrd': Permission denied\n$")
+
+
+@unittest.skipIf(USES_SANITIZER, "sanitizers reserve more")
+class LittleMemory(ProgramTestCase):
+    def test_messages(self):
+        """However little there is, the program or the loader of its libraries says so."""
+        path = images.write_nrrd(self.folder / "i.nrrd", images.two_labels(14, 5.0))
+        statuses = set()
+        for mebibytes in range(40, 400, 20):
+            limit = mebibytes << 20
+            done = self.call("--input", path, "--delta", 3, "--threads", 2, "--messages", "python",
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+            statuses.add(done.returncode)
+            with self.subTest(mebibytes, told=done.stderr):
+                self.assertIn(done.returncode, (0, 1, 127))
+                if done.returncode == 1:
+                    self.assertRegex(done.stderr, "^voxplex: [^\n]*(memory|limits)[^\n]*\n$")
+        self.assertLessEqual({1, 127}, statuses)
 
 
 if __name__ == "__main__":

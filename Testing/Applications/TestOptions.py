@@ -58,7 +58,7 @@ class Options(ProgramTestCase):
         self.assertEqual((broken["label"], broken["voxels"], broken["voxel"]), (1, 64, [4, 4, 4]))
         self.assertEqual(broken["fragments"], report["labels"]["1"]["fragments"])
         self.assertRegex(done.stderr, r"warning: Tetrahedra of these connected components of the image are in several pieces that "
-                                      r"no common faces connect: 64 voxels of label 1 at \(4, 4, 4\) in %d\. --exact-components"
+                                      r"no common faces connect: 64 voxels of label 1 at \(i, j, k\) = \(4, 4, 4\) in %d\. --exact-components"
                          % broken["fragments"])
         self.assertRegex(done.stderr, r"less than half of the volume of these labels, .*: 1 \(")
         done = self.call("--input", path, "--delta", 2, "--exact-components", "--quality", "--stats", "s.json")

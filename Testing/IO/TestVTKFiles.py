@@ -7,12 +7,12 @@ import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkBitArray
+from vtkmodules.vtkCommonCore import vtkBitArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOLegacy import vtkStructuredPointsWriter
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from iotesting import FolderTestCase, warnings_of
+from iotesting import FolderTestCase, table_of, warnings_of
 
 ARRAY = np.random.default_rng(3).integers(0, 100, (4, 5, 6)).astype("u1")
 TYPES = {"unsigned_char": "u1", "char": "i1", "unsigned_short": "u2", "short": "i2", "unsigned_int": "u4", "int": "i4",
@@ -51,6 +51,18 @@ def image_of(*arrays, cells=False, direction=None, start=(0, 0, 0)):
         values.SetName(name)
         data.AddArray(values)
     return image
+
+
+def add_texts(image, name, texts, as_bytes=False):
+    if as_bytes:
+        data = b"".join(text.encode(errors="surrogateescape") + b"\0" for text in texts)
+        array = numpy_to_vtk(np.frombuffer(data, "u1"), deep=1)
+    else:
+        array = vtkStringArray()
+        for text in texts:
+            array.InsertNextValue(text)
+    array.SetName(name)
+    image.GetFieldData().AddArray(array)
 
 
 # VTK does not tell what is missing from what is wrong.
@@ -124,6 +136,37 @@ class Files(FolderTestCase):
                 bits.InsertNextValue(int(value > 50))
             image.GetPointData().AddArray(bits)
             self.check(self.save_xml(image), (ARRAY > 50).astype("u1"))
+
+    def test_fields(self):
+        """SPACE and names of labels, as the reader itself writes them; texts may be bytes, as in our meshes."""
+        turned = np.array([[0, -1, 0], [0.8, 0, 0.6], [-0.6, 0, 0.8]])
+        flip = np.diag([-1, -1, 1])
+        for space, as_bytes in (("RAS", False), ("LPS", False), ("RAS", True)):
+            with self.subTest(space, as_bytes=as_bytes):
+                place = flip if space == "RAS" else np.eye(3)
+                image = image_of(("labels", ARRAY), direction=turned)
+                add_texts(image, "SPACE", [space], as_bytes)
+                add_texts(image, "LabelNames", ["Liver", "", "Milz ü"], as_bytes)
+                values = numpy_to_vtk(np.array([7, 8, 9], "i4"), deep=1)
+                values.SetName("LabelValues")
+                image.GetFieldData().AddArray(values)
+                path = self.save_xml(image)
+                self.check(path, direction=place @ turned, origin=place @ (10, -20, 30))
+                reader = self.reader(path)
+                self.assertEqual(table_of(reader.GetOutput()), {7: ("Liver", None), 9: ("Milz ü", None)})
+                self.assertEqual(reader.GetLabelTableSource(), str(path))
+                again = self.read(self.save_xml(self.reader(path, Space=1).GetOutput()))
+                np.testing.assert_allclose(again.GetOrigin(), place @ (10, -20, 30))
+        image = image_of(("labels", ARRAY))
+        add_texts(image, "SPACE", ["scanner"])
+        add_texts(image, "LabelNames", ["\udcff", "Milz"], as_bytes=True)
+        values = numpy_to_vtk(np.array([7, 9], "i4"), deep=1)
+        values.SetName("LabelValues")
+        image.GetFieldData().AddArray(values)
+        reader = self.reader(self.save_xml(image))
+        self.assertRegex("\n".join(warnings_of(reader)), r"SPACE is 'scanner'\); its coordinates are taken for LPS\n"
+                         ".*the name of label 7 is not in UTF-8, and is not used")
+        self.assertEqual(table_of(reader.GetOutput()), {9: ("Milz", None)})
 
     def test_hidden(self):
         """What a caller hides is background."""

@@ -260,8 +260,20 @@ class Files(unittest.TestCase):
             mesh.write(self.folder / "mesh.inp")
 
     def test_full_temporary_folder(self):
-        with unittest.mock.patch("voxplex.program.run", side_effect=OSError(errno.ENOSPC, "No space left on device")):
-            with self.assertRaisesRegex(voxplex.FileError, "the temporary folder .* is full.*TMPDIR"):
+        ours = "the temporary folder .* is full.*TMPDIR"
+        for error, words in ((OSError(errno.ENOSPC, "No space left on device"), ours),
+                             (OSError(errno.EDQUOT, "Disk quota exceeded"), ours),
+                             (voxplex.FileError("cannot write the mesh: No space left on device"), ours),
+                             (voxplex.FileError("cannot write '/tmp/voxplex-ab12_xyz/interfaces.vtu': Disk quota exceeded"), ours),
+                             (voxplex.FileError("cannot write '/home/voxplex-1/mesh.vtu': No space left on device"), "^cannot write")):
+            with self.subTest(error), unittest.mock.patch("voxplex.program.run", side_effect=error):
+                with self.assertRaisesRegex(voxplex.FileError, words):
+                    voxplex.mesh(self.labels, 2.0)
+
+    def test_no_temporary_folder(self):
+        nowhere = FileNotFoundError(errno.ENOENT, "No usable temporary directory found in ['/tmp']")
+        with unittest.mock.patch("tempfile.gettempdir", side_effect=nowhere):
+            with self.assertRaisesRegex(voxplex.FileError, "^No usable temporary directory found in .*; name one .* TMPDIR$"):
                 voxplex.mesh(self.labels, 2.0)
 
     def test_refusals(self):

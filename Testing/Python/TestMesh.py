@@ -470,6 +470,8 @@ class Refusals(unittest.TestCase):
             (ValueError, "'heart'.*no label names", lambda: voxplex.mesh(image, labels=["heart"])),
             (ValueError, "two frames or more", lambda: voxplex.mesh(beating()[:1])),
             (ValueError, "shape", lambda: voxplex.mesh(image, size_image=numpy.ones((3, 3, 3)))),
+            (voxplex.MeshingError, r"^The image of sizes \(size_image\) lies beside the image: it has x from 998.5 to 1001.5, y .*; the "
+             r"image has x from", lambda: voxplex.mesh(image, size_image=voxplex.Image(numpy.ones((3, 3, 3)), origin=(999, 0, 0)))),
         ]
         for kind, words, call in cases:
             with self.subTest(words), self.assertRaisesRegex(kind, words):

@@ -4,6 +4,7 @@
 """The package as such: what it exports, its version, its types, its examples, and python3 -m voxplex."""
 
 import doctest
+import errno
 import importlib
 import importlib.metadata
 import importlib.util
@@ -79,7 +80,7 @@ class Package(unittest.TestCase):
                 continue
             try:
                 result = doctest.testmod(importlib.import_module(module.name))
-            except ModuleNotFoundError as missing:  # not every library is there
+            except ImportError as missing:  # not every library is there
                 self.assertIn(missing.name, ("vtkmodules", "pyvista"))
                 continue
             self.assertEqual(result.failed, 0, module.name)
@@ -123,17 +124,71 @@ class Imports(unittest.TestCase):
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
         self.assertEqual((done.stdout, done.stderr), ("[]\n", ""))
 
+    def last_words(self, script, folder=""):
+        """The last line of what a script says."""
+        paths = [str(folder), str(PACKAGE.parent), os.environ.get("PYTHONPATH", "")]
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False,
+                              env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))})
+        self.assertEqual(done.returncode, 1)
+        return done.stderr.splitlines()[-1]
+
+    def test_without_numpy(self):
+        self.assertEqual(self.last_words("import sys; sys.modules['numpy'] = None; import voxplex"),
+                         "ModuleNotFoundError: voxplex needs NumPy, which this Python does not find: pip install numpy")
+
+    def test_without_a_vtk_that_will_do(self):
+        """None, an old one, and one that lacks a library."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        package = Path(folder.name) / "vtkmodules"
+        (package / "util").mkdir(parents=True)
+        any_name = "def __getattr__(name):\n    if name[:2] == '__': raise AttributeError(name)\n    return object\n"
+        version = ("class vtkVersion:\n    def GetVTKMajorVersion(self): return 9\n"
+                   "    def GetVTKMinorVersion(self): return 0\n    def GetVTKVersion(self): return '9.0.3'\n")
+        for name in "__init__", "util/__init__", "vtkCommonDataModel", "vtkCommonExecutionModel":
+            (package / f"{name}.py").write_text(any_name)
+        (package / "vtkCommonCore.py").write_text(version + any_name)
+        needs = "ImportError: this needs VTK 9.1 or newer (pip install 'vtk>=9.1'): "
+        use = "import voxplex; voxplex.Image([[[1]]]).to_vtk()"
+        for support, words in ((any_name, "VTK is 9.0.3"), ("raise ImportError('libGL.so.1: no such file')", "libGL.so.1: no such file")):
+            (package / "util" / "numpy_support.py").write_text(support)
+            self.assertEqual(self.last_words(use, folder.name), needs + words)
+        hide = "import sys; sys.modules['vtkmodules'] = None; "
+        self.assertRegex(self.last_words(hide + use), "^" + re.escape(needs) + ".*vtkmodules")
+        if not WRAPPED:
+            self.assertRegex(self.last_words(hide + "import voxplex; voxplex.vtkImageToTetMeshFilter"), "^AttributeError: vtkImage.*: this needs VTK 9.1")
+
 
 class CommandLine(unittest.TestCase):
-    def test_without_the_program(self):
-        script = ("import pathlib, runpy, voxplex.installation as installation\n"
-                  "installation.PROGRAM = pathlib.Path('/none/../no-such-program')\n"
-                  "runpy.run_module('voxplex', run_name='__main__')\n")
-        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, "^voxplex: the command line program is not installed: there is no /no-such-program")
-        with unittest.mock.patch("voxplex.installation.PROGRAM", Path("/none/../no-such-program")):
-            with self.assertRaisesRegex(RuntimeError, "is not installed: there is no /no-such-program"):
+    def test_program_that_does_not_start(self):
+        """For the system or for the loader of libraries."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = Path(folder.name) / "voxplex"
+        for words, content, mode in (
+                ("it is not there; ", None, 0),
+                ("it may not be executed; ", b"#!/bin/sh\n", 0o644),
+                ("it is made for another system or processor; ", b"\x7fELF of a processor that nobody has", 0o755),
+                ("it is made for another system or processor; ", b"#!/no/such/loader\n", 0o755),
+                ("/voxplex: version `GLIBC_9' not found; ", b"#!/bin/sh\necho \"$0: version \\`GLIBC_9' not found\" >&2\nexit 1", 0o755),
+                ("/voxplex: cannot open libx; ", b"#!/bin/sh\necho \"$0: cannot open libx\" >&2\nexit 127", 0o755)):
+            with self.subTest(words):
+                if content is not None:
+                    path.write_bytes(content)
+                    path.chmod(mode)
+                message = f"the program {re.escape(str(path))} cannot be started: .*{words}"
+                with unittest.mock.patch("voxplex.installation.PROGRAM", path.parent / "none" / ".." / "voxplex"):
+                    with self.assertRaisesRegex(RuntimeError, f"^{message}"):
+                        voxplex.mesh(numpy.ones((4, 4, 4)))
+                if "/voxplex" not in words:
+                    script = ("import pathlib, runpy, voxplex.installation as installation\n"
+                              f"installation.PROGRAM = pathlib.Path({str(path)!r})\n"
+                              "runpy.run_module('voxplex', run_name='__main__')\n")
+                    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+                    self.assertEqual(done.returncode, 1)
+                    self.assertRegex(done.stderr, f"^voxplex: {message}.*\n$")
+        with unittest.mock.patch("subprocess.Popen", side_effect=BlockingIOError(errno.EAGAIN, "Resource temporarily unavailable")):
+            with self.assertRaisesRegex(RuntimeError, r"^the program .* cannot be started: .*Resource.*; limits \(ulimit\) may be too low$"):
                 voxplex.mesh(numpy.ones((4, 4, 4)))
 
     @unittest.skipUnless(os.access(PROGRAM, os.X_OK), "the program was not built")

@@ -52,7 +52,8 @@ int TestMeshingMessages(int, char*[])
 
   voxplex::MeshingStatistics broken;
   broken.Components.Broken = { { { 3, 64, { 4, 4, 4 } }, 21, 0.1 } };
-  ExpectOne(broken, "64 voxels of label 3 at (4, 4, 4) in 21. ExactComponents or a smaller Delta");
+  ExpectOne(broken,
+    "64 voxels of label 3 at (i, j, k) = (4, 4, 4) in 21. ExactComponents or a smaller Delta");
   ExpectOne(broken, "in 21. A smaller Delta, or an image with smaller voxels", true);
   return Result();
 }

@@ -138,6 +138,10 @@ void TestSmallImage()
   filter->SetElementSizeData(MakeImage(
     grid, [](const Vector&) { return 1.7; }, VTK_DOUBLE));
   CheckSizes(filter, "clamped", [](const Vector&, long long) { return 1.7 + 1e-9; });
+  CHECK(filter->GetNumberOfWarnings() == 1);
+  CHECK(
+    filter->GetWarning(0).find("The image of sizes (SetElementSizeData()) does not cover ") == 0,
+    filter->GetWarning(0));
 
   filter->SetElementSizeData(MakeImage(
     grid, [](const Vector& x) { return x[0] < 15.5 ? vtkMath::Nan() : 0.0; }, VTK_DOUBLE));
@@ -148,6 +152,37 @@ void TestSmallImage()
   filter->SetElementSizeData(MakeImage(
     grid, [](const Vector&) { return 1.9; }, VTK_DOUBLE));
   CheckSizes(filter, "one voxel", [](const Vector&, long long) { return 1.9 + 1e-9; });
+}
+
+/** An image of sizes beside the image is refused; one that has a corner of it is not. */
+void TestImageBeside()
+{
+  const auto filter = MakeCoarse();
+  Placement grid;
+  grid.Extent = { 0, 9, 0, 9, 0, 9 };
+  grid.Spacing = { 2, 2, 2 };
+  grid.Direction = { 0, 1, 0, -1, 0, 0, 0, 0, 1 }; // y from -19 to 1
+  const auto update = [&](const Vector& origin)
+  {
+    grid.Origin = origin;
+    filter->SetElementSizeData(MakeImage(
+      grid, [](const Vector&) { return 3.0; }, VTK_DOUBLE));
+    vtkObject::GlobalWarningDisplayOff();
+    filter->Update();
+    vtkObject::GlobalWarningDisplayOn();
+    return filter->GetErrorMessage();
+  };
+  CHECK(update({ 0, 0, 0 }).empty(), filter->GetErrorMessage());
+  const std::string message = update({ 0, -2, 1000 });
+  CHECK(message ==
+      "The image of sizes (SetElementSizeData()) lies beside the image: it has x from -1 to 19, y "
+      "from -21 to -1, z from 999 "
+      "to 1019; the image has x from -0.5 to 31.5, y from -0.5 to 31.5, z from -0.5 to 31.5. "
+      "Correct "
+      "its spacing, origin or direction.",
+    message);
+  CHECK(filter->GetOutput()->GetNumberOfCells() == 0);
+  CHECK(!update({ 0, -2, 0 }).empty());
 }
 
 /** The array of sizes is chosen by name, too. */
@@ -251,6 +286,7 @@ int TestTetMeshSizes(int, char*[])
   TestImage(false);
   TestImage(true);
   TestSmallImage();
+  TestImageBeside();
   TestNamedImage();
   TestImplicitFunction();
   TestCallable();
