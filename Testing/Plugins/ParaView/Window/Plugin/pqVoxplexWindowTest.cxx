@@ -11,6 +11,7 @@
 #include "pqPipelineSource.h"
 #include "pqProgressManager.h"
 #include "pqPropertiesPanel.h"
+#include "pqPropertyWidget.h"
 #include "pqRenderView.h"
 #include "pqSearchBox.h"
 #include "pqServer.h"
@@ -447,7 +448,8 @@ void pqVoxplexWindowTest::checkShown(const QStringList& names, bool shown)
   int last = -1;
   for (const QString& name : names)
   {
-    auto* const widget = panel ? panel->findChild<QWidget*>(name) : nullptr;
+    // In ParaView 5.13, the text beside Inside is a QLabel called InsideLabel.
+    auto* const widget = panel ? panel->findChild<pqPropertyWidget*>(name) : nullptr;
     this->check(
       widget && widget->isVisible() == shown, name + (shown ? " is shown" : " is not shown"));
     if (widget && shown)
