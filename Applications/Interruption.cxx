@@ -7,9 +7,15 @@
 #include <atomic>
 #include <csignal>
 #include <cstring>
+#include <initializer_list>
 #include <utility>
 
+#ifdef _WIN32
+#include <mutex>
+#include <windows.h>
+#else
 #include <pthread.h>
+#endif
 #ifdef __linux__
 #include <sys/prctl.h>
 #endif
@@ -60,6 +66,37 @@ void Print(const char (&message)[N])
   _exit(128 + SignalNumber);
 }
 
+void OnCrash(int)
+{
+  RemoveTemporaries();
+  const char* const message = MessageOfCrash;
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, message, std::strlen(message));
+  _exit(ExitFailure);
+}
+
+#ifdef _WIN32 // which has no signals from outside, but starts a thread for what the console says
+
+constexpr std::initializer_list<int> Crashes = { SIGSEGV, SIGFPE, SIGILL, SIGABRT };
+
+std::recursive_mutex DeferralMutex;
+
+BOOL WINAPI OnControl(DWORD event)
+{
+  int none = 0;
+  const bool first =
+    SignalNumber.compare_exchange_strong(none, event == CTRL_C_EVENT ? SIGINT : SIGTERM);
+  if (Cancellable && first)
+  {
+    Sleep(1000);
+  }
+  const std::scoped_lock notDeferred(DeferralMutex);
+  RemoveTemporariesAndExit();
+}
+
+#else
+
+constexpr std::initializer_list<int> Crashes = { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT };
+
 void OnSignal(int number)
 {
   const bool first = SignalNumber.exchange(number) == 0;
@@ -75,22 +112,6 @@ void OnAlarm(int)
   RemoveTemporariesAndExit();
 }
 
-void OnCrash(int)
-{
-  RemoveTemporaries();
-  const char* const message = MessageOfCrash;
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, message, std::strlen(message));
-  _exit(ExitFailure);
-}
-
-void HandleCrashes(void (*handler)(int))
-{
-  for (const int number : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT })
-  {
-    std::signal(number, handler);
-  }
-}
-
 sigset_t EndingSignals()
 {
   sigset_t set;
@@ -102,7 +123,36 @@ sigset_t EndingSignals()
   return set;
 }
 
+#endif
+
+void HandleCrashes(void (*handler)(int))
+{
+  for (const int number : Crashes)
+  {
+    std::signal(number, handler);
+  }
+}
+
 } // namespace
+
+#ifdef _WIN32
+
+void Interruption::Install()
+{
+  SetConsoleCtrlHandler(OnControl, TRUE);
+}
+
+Interruption::Deferral::Deferral()
+{
+  DeferralMutex.lock();
+}
+
+Interruption::Deferral::~Deferral()
+{
+  DeferralMutex.unlock();
+}
+
+#else
 
 void Interruption::Install()
 {
@@ -128,6 +178,19 @@ void Interruption::Install()
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
 }
+
+Interruption::Deferral::Deferral()
+{
+  const sigset_t set = EndingSignals();
+  pthread_sigmask(SIG_BLOCK, &set, &this->Previous);
+}
+
+Interruption::Deferral::~Deferral()
+{
+  pthread_sigmask(SIG_SETMASK, &this->Previous, nullptr);
+}
+
+#endif
 
 void Interruption::EndWithParent()
 {
@@ -176,17 +239,6 @@ Interruption::CrashReport::CrashReport(std::string message)
 Interruption::CrashReport::~CrashReport()
 {
   HandleCrashes(SIG_DFL);
-}
-
-Interruption::Deferral::Deferral()
-{
-  const sigset_t set = EndingSignals();
-  pthread_sigmask(SIG_BLOCK, &set, &this->Previous);
-}
-
-Interruption::Deferral::~Deferral()
-{
-  pthread_sigmask(SIG_SETMASK, &this->Previous, nullptr);
 }
 
 } // namespace voxplex::cli

@@ -7,7 +7,8 @@
  * A first SIGINT, SIGTERM or SIGHUP while a cancellable step runs only sets a flag, which the
  * step's progress observer reads. In any other step, at a second signal, or when the cancellable
  * step has not ended within a second, the handler removes the registered temporary files and exits
- * with 128 + the signal's number.
+ * with 128 + the signal's number. On Windows, Ctrl-C counts as SIGINT; Ctrl-Break, and the end of the console or of the
+ * session, as SIGTERM; a temporary file stays if it is being written then.
  */
 #ifndef voxplex_cli_Interruption_h
 #define voxplex_cli_Interruption_h
@@ -74,7 +75,9 @@ public:
     Deferral& operator=(const Deferral&) = delete;
 
   private:
+#ifndef _WIN32         // where the process has a lock instead
     sigset_t Previous; ///< what the thread had blocked before
+#endif
   };
 };
 

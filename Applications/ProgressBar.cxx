@@ -6,13 +6,34 @@
 #include <cmath>
 #include <cstdio>
 
+#ifdef _WIN32
+#include <windows.h>
+#else
 #include <unistd.h>
+#endif
 
 namespace voxplex::cli
 {
+namespace
+{
+
+/** Whether standard error is a terminal that understands escape sequences. */
+bool IsTerminal()
+{
+#ifdef _WIN32 // where a console has to be asked for that
+  const HANDLE console = GetStdHandle(STD_ERROR_HANDLE);
+  DWORD mode = 0;
+  return GetConsoleMode(console, &mode) &&
+    SetConsoleMode(console, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
+#else
+  return isatty(STDERR_FILENO);
+#endif
+}
+
+} // namespace
 
 ProgressBar::ProgressBar(bool wanted)
-  : IsBar(wanted && isatty(STDERR_FILENO))
+  : IsBar(wanted && IsTerminal())
   , IsLines(wanted && !this->IsBar)
 {
 }

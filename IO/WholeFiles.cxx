@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WholeFiles.h"
 
+#include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <filesystem>
+#include <random>
+#include <string_view>
 #include <system_error>
 
 #include <fcntl.h>
@@ -50,6 +52,39 @@ fs::path TargetOf(const std::string& path)
   return target;
 }
 
+#ifdef _WIN32 // where users have what rights the folder gives them
+
+bool IsWritable(const std::string& path)
+{
+  return access(path.c_str(), W_OK) == 0;
+}
+
+void CopyPermissions(const std::string&, const std::string&) {}
+
+#else
+
+bool IsWritable(const std::string& path)
+{
+  return faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0;
+}
+
+/** Gives a new file the permissions of the one that it replaces, and its owner and group if the user may. */
+void CopyPermissions(const std::string& from, const std::string& to)
+{
+  struct stat old = {};
+  if (stat(from.c_str(), &old) != 0)
+  {
+    return; // a new name: the file has what the process gives to new files
+  }
+  // Users who are not root may give the group only. Permissions come last: chown() takes some of them away.
+  constexpr auto sameOwner = static_cast<uid_t>(-1);
+  [[maybe_unused]] const bool given =
+    chown(to.c_str(), old.st_uid, old.st_gid) == 0 || chown(to.c_str(), sameOwner, old.st_gid) == 0;
+  chmod(to.c_str(), old.st_mode & 0777);
+}
+
+#endif
+
 /** @param path as it was given, for messages */
 void CheckTarget(const std::string& path, const fs::path& target)
 {
@@ -72,7 +107,7 @@ void CheckTarget(const std::string& path, const fs::path& target)
   {
     throw OutputError(path, "it exists and is not a regular file");
   }
-  if (faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
+  if (!IsWritable(target.string()))
   {
     throw OutputError(path,
       "the file that is there is write-protected (" + std::generic_category().message(errno) +
@@ -88,9 +123,19 @@ void CheckTarget(const std::string& path, const fs::path& target)
  */
 std::string HiddenName(const std::string& path, const fs::path& folder)
 {
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
   const std::string extension = fs::path(path).extension().string();
-  std::string name = (folder / (".voxplex-XXXXXX" + extension)).string();
-  const int descriptor = mkstemps(name.data(), static_cast<int>(extension.size()));
+  std::random_device random;
+  std::string name;
+  int descriptor = -1;
+  do
+  {
+    std::string unique(6, ' ');
+    std::generate(
+      unique.begin(), unique.end(), [&]() { return letters[random() % letters.size()]; });
+    name = (folder / (".voxplex-" + unique + extension)).string();
+    descriptor = open(name.c_str(), O_RDWR | O_CREAT | O_EXCL, 0600);
+  } while (descriptor < 0 && errno == EEXIST);
   if (descriptor < 0)
   {
     throw OutputError(
@@ -99,21 +144,6 @@ std::string HiddenName(const std::string& path, const fs::path& folder)
   close(descriptor);
   unlink(name.c_str());
   return name;
-}
-
-/** Gives a new file the permissions of the one that it replaces, and its owner and group if the user may. */
-void CopyPermissions(const std::string& from, const std::string& to)
-{
-  struct stat old = {};
-  if (stat(from.c_str(), &old) != 0)
-  {
-    return; // a new name: the file has what the process gives to new files
-  }
-  // Users who are not root may give the group only. Permissions come last: chown() takes some of them away.
-  constexpr auto sameOwner = static_cast<uid_t>(-1);
-  [[maybe_unused]] const bool given =
-    chown(to.c_str(), old.st_uid, old.st_gid) == 0 || chown(to.c_str(), sameOwner, old.st_gid) == 0;
-  chmod(to.c_str(), old.st_mode & 0777);
 }
 
 } // namespace

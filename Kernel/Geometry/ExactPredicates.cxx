@@ -14,6 +14,10 @@
 #include <limits>
 #include <type_traits>
 
+#ifndef CGAL_USE_GMP
+#error "CGAL needs GMP: without it the doubles that it makes of large fractions are no numbers."
+#endif
+
 namespace voxplex
 {
 namespace

@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "Base/GridIndex.h"
 #include "Base/NumberText.h"
+#include "Base/PageMemory.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -13,7 +14,6 @@
 #include <cstdio>
 #include <limits>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 namespace voxplex
@@ -230,12 +230,7 @@ MeshSizeEstimate EstimateMeshSize(const LabelImage<D>& image, double delta, doub
 //------------------------------------------------------------------------------------------------
 void CheckMemory(const MeshSizeEstimate& estimate, std::uint64_t limit)
 {
-  double available = static_cast<double>(limit);
-  if (limit == 0)
-  {
-    available =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  }
+  const auto available = static_cast<double>(limit == 0 ? PhysicalMemory() : limit);
   const double bytes = static_cast<double>(estimate.Bytes);
   constexpr std::uint64_t MostElements = 1u << 31; // half of all ids; some ids are free
   if (bytes > available || estimate.Elements > MostElements)

@@ -20,7 +20,11 @@
 #include <string>
 #include <thread>
 
+#ifdef _WIN32
+#include <windows.h>
+#else
 #include <sys/resource.h>
+#endif
 
 namespace voxplex::testing
 {
@@ -93,23 +97,39 @@ inline bool Stays(const std::function<bool()>& condition,
   return !Soon([&condition]() { return !condition(); }, duration);
 }
 
+struct Work
+{
+  long Milliseconds; ///< of processors
+  long Sleeps;
+};
+
+/** Of all threads of this process so far. */
+inline Work WorkSoFar()
+{
+#ifdef _WIN32 // where nobody counts how often threads go to sleep
+  FILETIME start, end, kernel, user;
+  GetProcessTimes(GetCurrentProcess(), &start, &end, &kernel, &user);
+  return { static_cast<long>((kernel.dwLowDateTime + user.dwLowDateTime) / 10000), 0 };
+#else
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto milliseconds = [](const timeval& time)
+  { return static_cast<long>(time.tv_sec) * 1000 + static_cast<long>(time.tv_usec) / 1000; };
+  return { milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime), usage.ru_nvcsw };
+#endif
+}
+
 /**
  * True if for a tenth of a second the other threads of the process hardly run: they neither compute
  * nor fall asleep and wake up again and again.
  */
 inline bool OthersStandStill()
 {
-  const auto milliseconds = [](const timeval& time)
-  { return static_cast<long>(time.tv_sec) * 1000 + static_cast<long>(time.tv_usec) / 1000; };
-  rusage before{};
-  rusage after{};
-  getrusage(RUSAGE_SELF, &before);
+  const Work before = WorkSoFar();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  getrusage(RUSAGE_SELF, &after);
-  const long computed = milliseconds(after.ru_utime) + milliseconds(after.ru_stime) -
-    milliseconds(before.ru_utime) - milliseconds(before.ru_stime);
-  const long sleeps = after.ru_nvcsw - before.ru_nvcsw;
-  return computed < 5 && sleeps < 6; // this thread sleeps once, the thread sanitizer's once or twice
+  const Work after = WorkSoFar();
+  // This thread sleeps once, the thread sanitizer's once or twice.
+  return after.Milliseconds - before.Milliseconds < 5 && after.Sleeps - before.Sleeps < 6;
 }
 
 /** A call that may wait, made in a thread of its own. */
