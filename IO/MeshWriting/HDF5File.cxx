@@ -97,6 +97,7 @@ HDF5File::HDF5File()
   const Quiet quiet;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access, growth, isKeptInMemory);
+  H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST); // later groups have times: bytes of their own
   this->File = H5Fcreate("voxplex", H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (this->File < 0)
   {

@@ -264,7 +264,7 @@ void TestThreads()
     for (const bool picking : { false, true })
     {
       const auto filter = MakePentatopeFilter();
-      filter->SetDelta(1.4);
+      filter->SetDelta(1.0);
       filter->SetNumberOfThreads(threads);
       filter->SetPickingRegions(picking);
       filter->SetFineGrained(threads == 4);
