@@ -89,10 +89,16 @@ po::options_description DescribeFiles()
 {
   po::options_description options("Files");
   options.add_options() //
-    ("input", Text("FILE"),
+    ("input", po::value<std::vector<std::string>>()->multitoken()->composing()->value_name("FILE"),
       "the label image, of three or four dimensions: NRRD, NIfTI, MetaImage, "
       "DICOM, TIFF, VTK, GIPL, MRC, or a folder that holds a DICOM series; 0 is background; or a "
-      "grey-value image (--isovalue)") //
+      "grey-value image (--isovalue). Several files, or a folder of them, are masks, which become "
+      "labels 1, 2, ... with the names of their files") //
+    ("overlap", Text("smallest|order"),
+      "which of the masks that have a voxel gets it: the smallest (the default; of equals the "
+      "first), or the first. Also of segments of a .seg.nrrd file") //
+    ("resample-masks",
+      "resample masks on different grids to that with the smallest voxels, by nearest neighbour") //
     ("mesh", Text("FILE"),
       "a mesh that is there already, in place of making one: a .vtu file of tetrahedra with the "
       "cell array Label, or of pentatopes, which also have the point array Time. It is measured, "
@@ -392,6 +398,13 @@ void TakeValues(const po::variables_map& given, ParameterValues& values)
 void TakeReading(const po::variables_map& values, ReadingOptions& reading)
 {
   Take(values, "series", ParseName, reading.Series);
+  Take(
+    values, "overlap",
+    [](const std::string& option, const std::string& text) {
+      return ParseWord(option, text, { "smallest", "order" });
+    },
+    reading.Overlap);
+  reading.ResampleMasks = values.count("resample-masks") > 0;
   Take(values, "label-table", ParseName, reading.LabelTable);
   Take(values, "frame-times", ParseFrameTimes, reading.FrameTimes);
   Take(values, "spacing", ParseSpacing, reading.Spacing);
@@ -444,8 +457,9 @@ void CheckOptionsOfMesh(const po::variables_map& values)
       refuse(NameIn(UserInterface::CommandLine, parameter), making);
     }
   }
-  for (const char* const option : { "series", "spacing", "origin", "direction", "space", "labels",
-         "label-table", "data-files-anywhere", "smoothing", "smallest-component", "hausdorff" })
+  for (const char* const option :
+    { "series", "overlap", "resample-masks", "spacing", "origin", "direction", "space", "labels",
+      "label-table", "data-files-anywhere", "smoothing", "smallest-component", "hausdorff" })
   {
     if (!values.count("input"))
     {
@@ -461,7 +475,9 @@ Parameters ToParameters(const po::variables_map& values)
   {
     CheckOptionsOfMesh(values);
   }
-  Take(values, "input", ParseName, p.Input);
+  p.Inputs = AllGiven(values, "input");
+  std::for_each(
+    p.Inputs.begin(), p.Inputs.end(), [](const std::string& path) { ParseName("input", path); });
   Take(values, "mesh", ParseName, p.Mesh);
   Take(values, "interfaces", ParseName, p.MeshInterfaces);
   Take(values, "output", ParseName, p.Output);

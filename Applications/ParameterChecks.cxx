@@ -50,7 +50,7 @@ void CheckSpaceTime(const Parameters& p)
   const bool hasPlanes = p.TimePlanesAtFrames || !p.TimePlanes.empty() || p.Has("periodic");
   RefuseIf(!p.Slabs.empty() && !hasPlanes && p.Mesh.empty(),
     "--slabs: there is one slab only; give the times of planes with --time-planes");
-  const bool hasFrames = !p.Input.empty() || p.Mesh.empty();
+  const bool hasFrames = !p.Inputs.empty() || p.Mesh.empty();
   RefuseIf(hasFrames && p.Reading.FrameTimes.size() == 1,
     "--frame-times: give the time of each frame, such as 0,40,80");
   RefuseIf(!hasFrames && !p.Slices.empty() && !p.SliceCount && p.Reading.FrameTimes.empty(),
@@ -69,6 +69,8 @@ void CheckIsosurface(const Parameters& p)
   {
     constexpr const char* Why = ": grey-value images have no labels; leave it or --isovalue out";
     RefuseIf(!p.LabelTexts.empty(), "--labels", Why);
+    RefuseIf(p.Inputs.size() > 1, "--isovalue",
+      ": only for one image of grey values, and several files are masks; leave one of the two out");
     RefuseIf(!p.Reading.LabelTable.empty(), "--label-table", Why);
     RefuseIf(p.Hausdorff, "--hausdorff",
       ": distances are measured from the labels of an image, and a grey-value image has none; "
@@ -103,7 +105,7 @@ void CheckMesh(const Parameters& p)
   {
     RefuseIf(!p.MeshInterfaces.empty(), "--interfaces",
       ": these are those of a mesh that is there; give it with --mesh");
-    RefuseIf(p.Input.empty(), "--input is missing: which image shall be meshed?");
+    RefuseIf(p.Inputs.empty(), "--input is missing: which image shall be meshed?");
     return;
   }
   RefuseIf(!p.Interfaces.empty() && p.MeshInterfaces.empty(), "--plc",
@@ -149,8 +151,8 @@ void CheckDimension(const Parameters& p, int dimension)
     ? ": only for meshes of pentatopes, and " + Quoted(p.Mesh) + " has tetrahedra; leave it out"
     : dimension == 3
     ? ": only for space-time images, which have four dimensions and at least two time frames; " +
-      Quoted(p.Input) + " is a 3D image"
-    : ": only for 3D images, and " + Quoted(p.Input) + " is a space-time image; leave it out";
+      Quoted(p.InputName()) + " is a 3D image"
+    : ": only for 3D images, and " + Quoted(p.InputName()) + " is a space-time image; leave it out";
   for (const MeshingParameter& parameter : MeshingParameters())
   {
     const bool isOfOthers = parameter.Dimension != 0 && parameter.Dimension != dimension &&
@@ -161,7 +163,7 @@ void CheckDimension(const Parameters& p, int dimension)
   RefuseIf(dimension == 3 && !p.Slabs.empty(), "--slabs", why);
   RefuseIf(dimension == 3 && (p.TimePlanesAtFrames || !p.TimePlanes.empty()), "--time-planes", why);
   RefuseIf(
-    dimension == 3 && p.Input.empty() && !p.Reading.FrameTimes.empty(), "--frame-times", why);
+    dimension == 3 && p.Inputs.empty() && !p.Reading.FrameTimes.empty(), "--frame-times", why);
   RequireFormat(OutputOption::Output, p.Output, dimension);
   RequireFormat(OutputOption::Interfaces, p.Interfaces, dimension);
 }

@@ -37,6 +37,8 @@ struct InterfaceSizeText
 struct ReadingOptions
 {
   std::string Series;
+  int Overlap = 0; ///< of vtkSegmentationReader
+  bool ResampleMasks = false;
   std::string LabelTable;
   std::vector<double> FrameTimes;
   std::vector<double> Spacing; ///< of three axes
@@ -50,7 +52,7 @@ struct ReadingOptions
 /** An empty string or optional means that the option was not given. Lengths are physical. */
 struct Parameters
 {
-  std::string Input;
+  std::vector<std::string> Inputs;
   ReadingOptions Reading;     ///< of the input
   std::string Mesh;           ///< that is there already
   std::string MeshInterfaces; ///< those of Mesh
@@ -76,6 +78,15 @@ struct Parameters
   bool Compress = true; ///< .vtu and .vtp files
   bool Quality = false;
   bool Hausdorff = false; ///< implies Quality
+
+  /** What messages call the image; empty if there is none. */
+  std::string InputName() const
+  {
+    const std::size_t count = this->Inputs.size();
+    return count == 0
+      ? ""
+      : this->Inputs.front() + (count == 1 ? "" : " and " + std::to_string(count - 1) + " more");
+  }
 
   ///@{
   /** Of the table; the name must be one of it. */

@@ -14,7 +14,13 @@
 #include <map>
 #include <sstream>
 
+#ifdef _WIN32
+#include <windows.h>
+
+#include <psapi.h>
+#else
 #include <sys/resource.h>
+#endif
 
 using nlohmann::ordered_json;
 
@@ -25,9 +31,20 @@ namespace
 
 std::uint64_t PeakMemoryBytes()
 {
+#ifdef _WIN32 // which has no getrusage()
+  PROCESS_MEMORY_COUNTERS counters{};
+  GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof(counters));
+  return counters.PeakWorkingSetSize;
+#else
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
+#ifdef __APPLE__
+  constexpr std::uint64_t unit = 1; // macOS counts in bytes
+#else
+  constexpr std::uint64_t unit = 1024; // Linux counts in KiB
+#endif
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * unit;
+#endif
 }
 
 template <typename T>
@@ -78,8 +95,12 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
       (labels.second == LabelSelection::AnyLabel ? "" : "," + std::to_string(labels.second))] =
       size;
   }
-  ordered_json parameters = { { "input", p.Input }, { "series", OrNull(p.Reading.Series) },
-    { "output", OrNull(p.Output) }, { "plc", OrNull(p.Interfaces) } };
+  ordered_json parameters = {
+    { "input", p.Inputs.size() == 1 ? ordered_json(p.Inputs.front()) : ordered_json(p.Inputs) },
+    { "overlap", p.Reading.Overlap == 0 ? "smallest" : "order" },
+    { "resample_masks", p.Reading.ResampleMasks }, { "series", OrNull(p.Reading.Series) },
+    { "output", OrNull(p.Output) }, { "plc", OrNull(p.Interfaces) }
+  };
   for (const MeshingParameter& parameter : MeshingParameters())
   {
     std::string key = NameIn(UserInterface::CommandLine, parameter);

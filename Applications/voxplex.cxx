@@ -76,8 +76,11 @@ private:
 /** So that nothing that is read is overwritten. */
 void ProtectInputs(const io::WholeFiles& files, const Parameters& p)
 {
-  for (const std::string& path :
-    { p.Input, p.SizeImage, p.Reading.LabelTable, p.Mesh, p.MeshInterfaces })
+  for (const std::string& path : { p.SizeImage, p.Reading.LabelTable, p.Mesh, p.MeshInterfaces })
+  {
+    files.ForbidOverwriting(path);
+  }
+  for (const std::string& path : p.Inputs)
   {
     files.ForbidOverwriting(path);
   }
@@ -173,10 +176,15 @@ void SetPlace(vtkSegmentationReader* reader, const ReadingOptions& options)
 }
 
 vtkSmartPointer<vtkSegmentationReader> ReadFile(
-  const std::string& path, const ReadingOptions& options, UserInterface words)
+  const std::vector<std::string>& paths, const ReadingOptions& options, UserInterface words)
 {
   const auto reader = vtkSmartPointer<vtkSegmentationReader>::New();
-  reader->SetFileName(path.c_str());
+  for (const std::string& path : paths)
+  {
+    reader->AddFileName(path.c_str());
+  }
+  reader->SetOverlap(options.Overlap);
+  reader->SetResampleMasks(options.ResampleMasks);
   reader->SetSeriesUID(options.Series.c_str());
   reader->SetLabelTableFileName(options.LabelTable.c_str());
   for (const double time : options.FrameTimes)
@@ -194,16 +202,16 @@ vtkSmartPointer<vtkSegmentationReader> ReadFile(
 MeshingInput Read(const Parameters& p)
 {
   MeshingInput input;
-  if (!p.Input.empty())
+  if (!p.Inputs.empty())
   {
-    input.Labels = ReadFile(p.Input, p.Reading, p.Words);
+    input.Labels = ReadFile(p.Inputs, p.Reading, p.Words);
   }
   if (!p.SizeImage.empty())
   {
     ReadingOptions options; // where the sizes lie their own file says
     options.Space = p.Reading.Space;
     options.DataFilesAnywhere = p.Reading.DataFilesAnywhere;
-    input.Sizes = ReadFile(p.SizeImage, options, p.Words);
+    input.Sizes = ReadFile({ p.SizeImage }, options, p.Words);
     if (input.Sizes->GetNumberOfFrames() > 1)
     {
       throw RunError("--size-image: '" + p.SizeImage +
@@ -258,8 +266,8 @@ MeshWithInterfaces ReadMesh(const Parameters& p, const MeshingInput& input)
   if (input.Labels && input.Dimension() != given.Dimension())
   {
     throw UsageError(given.Dimension() == 4
-        ? "'" + p.Mesh + "' has pentatopes, but '" + p.Input + "' has no time frames"
-        : "'" + p.Input + "' has time frames, but '" + p.Mesh + "' has no pentatopes");
+        ? "'" + p.Mesh + "' has pentatopes, but '" + p.InputName() + "' has no time frames"
+        : "'" + p.InputName() + "' has time frames, but '" + p.Mesh + "' has no pentatopes");
   }
   if (!p.Slabs.empty() && !given.Mesh->GetFieldData()->HasArray("TimePlanes"))
   {

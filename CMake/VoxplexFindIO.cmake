@@ -8,7 +8,7 @@ set(VOXPLEX_HAVE_IO OFF)
 
 # The component names of VTK's modules that IO/vtk.module lists.
 set(_voxplex_io_components
-  CommonCore CommonDataModel CommonExecutionModel CommonMisc IOCore IOGeometry IOLegacy IOXML expat hdf5 tiff)
+  CommonCore CommonDataModel CommonExecutionModel CommonMisc IOCore IOGeometry IOLegacy IOXML ImagingCore expat hdf5 tiff)
 
 # As a library of its own, or as ITK brings it (3D Slicer).
 find_package(GDCM 3.0 QUIET)

@@ -12,10 +12,7 @@
 #include <vtkTypeTraits.h>
 
 #include <cstddef>
-#include <limits>
-#include <type_traits>
 #include <unordered_map>
-#include <utility>
 
 namespace voxplex::io
 {
@@ -42,20 +39,6 @@ vtkSmartPointer<vtkDataArray> ShareScalars(const ScalarImage& image, int frame)
     [](void* share) { delete static_cast<std::shared_ptr<void>*>(share); });
   array->AddObserver(vtkCommand::UserEvent, owner);
   return array;
-}
-
-/** Whether a scalar type has this very number. */
-template <typename T>
-bool Holds(std::int64_t label)
-{
-  if constexpr (std::is_floating_point_v<T>)
-  {
-    return label <= std::int64_t{ 1 } << std::numeric_limits<T>::digits;
-  }
-  else
-  {
-    return std::in_range<T>(label);
-  }
 }
 
 /** Keyed by the scalars' own type: comparing values of different types could take one for another. */

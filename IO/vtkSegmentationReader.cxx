@@ -4,9 +4,9 @@
 
 #include "FileError.h"
 #include "ImageReading/Placement.h"
-#include "ImageReading/ReadImage.h"
 #include "LabelTable.h"
 #include "LabelTableFile.h"
+#include "MaskFiles.h"
 #include "VTKImage.h"
 
 #include "vtkDataObject.h"
@@ -61,6 +61,7 @@ void SetTimes(ScalarImage& image, const std::vector<double>& times, const std::s
 
 struct vtkSegmentationReader::Internals
 {
+  std::string Path;  ///< the image, or the first of masks
   ScalarImage Image; ///< without voxels as long as nothing was read
   LabelTable Labels;
   std::string LabelSource;
@@ -72,6 +73,8 @@ vtkStandardNewMacro(vtkSegmentationReader);
 
 vtkSegmentationReader::vtkSegmentationReader()
   : FileName(nullptr)
+  , Overlap(OVERLAP_SMALLEST)
+  , ResampleMasks(false)
   , SeriesUID(nullptr)
   , LabelTableFileName(nullptr)
   , Space(SPACE_LPS)
@@ -95,6 +98,9 @@ void vtkSegmentationReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n"
+     << indent << "FileNames: " << this->FileNames.size() << "\n"
+     << indent << "Overlap: " << (this->Overlap == OVERLAP_SMALLEST ? "smallest" : "order") << "\n"
+     << indent << "ResampleMasks: " << (this->ResampleMasks ? "on" : "off") << "\n"
      << indent << "SeriesUID: " << (this->SeriesUID ? this->SeriesUID : "(none)") << "\n"
      << indent
      << "LabelTableFileName: " << (this->LabelTableFileName ? this->LabelTableFileName : "(none)")
@@ -134,6 +140,21 @@ void vtkSegmentationReader::ClearOrigin()
       coordinate = vtkMath::Nan();
       this->Modified();
     }
+  }
+}
+
+void vtkSegmentationReader::AddFileName(const char* name)
+{
+  this->FileNames.emplace_back(name ? name : "");
+  this->Modified();
+}
+
+void vtkSegmentationReader::ClearFileNames()
+{
+  if (!this->FileNames.empty())
+  {
+    this->FileNames.clear();
+    this->Modified();
   }
 }
 
@@ -182,15 +203,23 @@ bool vtkSegmentationReader::Read()
   this->ErrorMessage.clear();
   try
   {
-    RefuseIf(!this->FileName || !*this->FileName, "no file name is set");
-    ImageAnswer answer = ReadImage(
-      { this->FileName, this->SeriesUID ? this->SeriesUID : "", this->DataFilesAnywhere });
+    std::vector<std::string> paths = this->FileNames;
+    if (paths.empty())
+    {
+      paths.emplace_back(this->FileName ? this->FileName : "");
+    }
+    data.Path = paths.front();
+    RefuseIf(data.Path.empty(), "no file name is set");
+    ImageAnswer answer = ReadImageOrMasks(paths,
+      { "", this->SeriesUID ? this->SeriesUID : "", this->DataFilesAnywhere,
+        this->Overlap == OVERLAP_ORDER ? Overlap::Order : Overlap::Smallest },
+      this->ResampleMasks);
     data.Image = std::move(answer.Image);
     data.Labels = std::move(answer.Labels);
     data.Warnings = std::move(answer.Warnings);
     if (!this->FrameTimes.empty())
     {
-      SetTimes(data.Image, this->FrameTimes, this->FileName);
+      SetTimes(data.Image, this->FrameTimes, data.Path);
     }
     this->PlaceImage();
     this->ReadLabels();
@@ -250,7 +279,7 @@ void vtkSegmentationReader::PlaceImage()
   }
   catch (const FileError&)
   {
-    Refuse("SetSpacing(), SetOrigin() and SetDirection() give '", this->FileName,
+    Refuse("SetSpacing(), SetOrigin() and SetDirection() give '", this->Private->Path,
       "' no place in space: numbers must be finite, and the columns of the direction matrix "
       "independent");
   }
@@ -267,9 +296,9 @@ void vtkSegmentationReader::ReadLabels()
   }
   else if (!data.Labels.Entries.empty()) // the image's own
   {
-    data.LabelSource = this->FileName;
+    data.LabelSource = data.Path;
   }
-  else if (const auto beside = FindLabelTableFile(this->FileName))
+  else if (const auto beside = FindLabelTableFile(data.Path))
   {
     try
     {

@@ -9,6 +9,13 @@
  * Documentation/FileFormats.md says what each of them tells about the place of the image, and what is done where it
  * does not.
  *
+ * @par Masks
+ * Several files, and those of a folder of images that are not DICOM, are masks, one for each structure, inside where
+ * they are not 0 (real numbers, from 0 to 1: above 0.5). They become labels 1, 2, ... of one image of unsigned short,
+ * in the order given, or that of names in a folder (rib_2 before rib_10), and have the names of their files. So do
+ * segments of a .seg.nrrd file that overlap. A warning tells what overlaps, and which masks are without a voxel. Beside
+ * the result, of 2 bytes a voxel, one mask is in memory at a time.
+ *
  * @par Output
  * vtkImageData with origin, spacing and direction matrix as in the file, in the coordinates that Space
  * asks for. The point scalars are called `Labels`; they have one component and the type of the file. The
@@ -31,8 +38,8 @@
  * What cannot be read is reported with vtkErrorMacro and leaves the output empty; GetErrorMessage()
  * keeps the reason: no such file, unknown format, truncated or damaged data, several components that are
  * not frames, more than four dimensions, a spacing that is not positive, a singular direction matrix,
- * several DICOM series and no SeriesUID, a file that made the reading process crash or take too long. What was odd but
- * could be read is reported with vtkWarningMacro, and kept for GetWarning().
+ * several DICOM series and no SeriesUID, masks on different grids, a file that made the reading process crash or take
+ * too long. What was odd but could be read is reported with vtkWarningMacro, and kept for GetWarning().
  *
  * @par When it reads
  * The whole file is read when the pipeline first asks for information, so that damage is known before
@@ -53,6 +60,7 @@
 
 #include "vtkImageAlgorithm.h"
 #include "vtkVoxplexIOModule.h" // For export macro
+#include "vtkWrappingHints.h"   // For VTK_FILEPATH
 
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
@@ -76,9 +84,38 @@ public:
   };
 
   ///@{
-  /** A file, or a folder with a DICOM series. */
+  /** A file, or a folder with a DICOM series or with masks. */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /** Masks, one file after the other, in place of FileName. One alone is read as FileName is. */
+  void AddFileName(VTK_FILEPATH const char* name);
+  void ClearFileNames();
+  ///@}
+
+  /** Which of the masks that have a voxel gets it: the one with the fewest voxels (of equals the first), or the first. */
+  enum
+  {
+    OVERLAP_SMALLEST = 0,
+    OVERLAP_ORDER = 1
+  };
+
+  ///@{
+  /** OVERLAP_SMALLEST (default) or OVERLAP_ORDER. */
+  vtkSetClampMacro(Overlap, int, OVERLAP_SMALLEST, OVERLAP_ORDER);
+  vtkGetMacro(Overlap, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether masks on different grids are resampled to that with the smallest voxels, by nearest neighbour. All files
+   * are then read twice; a warning counts the voxels of masks that reach beyond it. Default off: they are an error.
+   */
+  vtkSetMacro(ResampleMasks, bool);
+  vtkGetMacro(ResampleMasks, bool);
+  vtkBooleanMacro(ResampleMasks, bool);
   ///@}
 
   ///@{
@@ -150,7 +187,7 @@ public:
   double GetTimeOfFrame(int frame) const;
   ///@}
 
-  /** The file that the names of labels are from, which may be the image; empty if there are none. */
+  /** The file that the names of labels are from, which may be the image (the first of masks); empty if there are none. */
   const std::string& GetLabelTableSource() const;
 
   /** Why the last execution failed; empty if it did not. */
@@ -172,6 +209,9 @@ protected:
     vtkInformationVector* outputVector) override;
 
   char* FileName;
+  std::vector<std::string> FileNames;
+  int Overlap;
+  bool ResampleMasks;
   char* SeriesUID;
   char* LabelTableFileName;
   int Space;

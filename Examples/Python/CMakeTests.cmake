@@ -11,6 +11,12 @@ add_test(NAME Examples.Python.mesh_segmentation
 set_tests_properties(Examples.Python.mesh_segmentation PROPERTIES
   ENVIRONMENT "${VOXPLEX_PYTHON_TEST_ENVIRONMENT}"
   TIMEOUT 600 LABELS Examples PASS_REGULAR_EXPRESSION "label 3: [1-9][0-9]+ tetrahedra")
+add_test(NAME Examples.Python.mesh_masks
+  COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/Python/mesh_masks.py"
+    --output "${CMAKE_CURRENT_BINARY_DIR}/whole-body.vtu")
+set_tests_properties(Examples.Python.mesh_masks PROPERTIES
+  ENVIRONMENT "${VOXPLEX_PYTHON_TEST_ENVIRONMENT}"
+  TIMEOUT 600 LABELS Examples PASS_REGULAR_EXPRESSION "aorta  .*rib_left_9 .*rib_left_10 .* tetrahedra of 100 structures")
 add_test(NAME Examples.Python.mesh_moving_anatomy
   COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/Python/mesh_moving_anatomy.py"
     --output "${CMAKE_CURRENT_BINARY_DIR}/moving-anatomy")

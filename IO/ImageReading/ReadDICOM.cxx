@@ -322,7 +322,8 @@ std::string ListSeries(const SeriesByUID& series)
 /** The one series of a folder, or the one that the user asks for. */
 FileNames ChooseSeries(const SeriesByUID& available, const std::string& wanted)
 {
-  RefuseIf(available.empty(), "the folder holds no DICOM images");
+  RefuseIf(available.empty(),
+    "the folder holds no DICOM images, and no files that are named as masks are (.nii.gz, .nrrd)");
   if (const auto exact = available.find(wanted); exact != available.end() && !wanted.empty())
   {
     return exact->second.Files;

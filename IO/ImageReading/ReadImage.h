@@ -8,6 +8,7 @@
 #define voxplex_io_ReadImage_h
 
 #include "LabelTable.h"
+#include "MaskUnion.h"
 #include "ScalarImage.h"
 
 #include <cstddef>
@@ -26,6 +27,7 @@ struct ImageRequest
     Series; ///< UID of the series to read from a folder, or its beginning; may be empty if there is one
   bool DataFilesAnywhere =
     false; ///< whether a header may name files that are not in its folder or below
+  Overlap Rule = Overlap::Smallest; ///< of segments in several layers
 };
 
 struct ImageAnswer

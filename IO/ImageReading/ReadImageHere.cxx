@@ -134,7 +134,7 @@ void WarnOfSpacing(Reading& reading)
 ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& allocate)
 {
   const std::string start = "cannot read '" + request.Path + "': ";
-  Reading reading{ allocate, request.DataFilesAnywhere, {}, {} };
+  Reading reading{ allocate, request.DataFilesAnywhere, request.Rule, {}, {} };
   ImageAnswer answer;
   try
   {

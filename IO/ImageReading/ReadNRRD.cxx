@@ -202,6 +202,7 @@ struct Roles
 {
   std::vector<std::size_t> Space;
   std::optional<std::size_t> Frames;
+  bool HasLayers = false; ///< of segments, in place of frames
 };
 
 bool IsAlongTime(const std::vector<double>& direction)
@@ -217,17 +218,9 @@ bool IsDomain(const Axis& axis)
   return axis.Kind.empty() || axis.Kind == "domain" || axis.Kind == "space" || axis.Kind == "time";
 }
 
-[[noreturn]] void RefuseComponents(
-  const TextHeader& header, const std::vector<Axis>& axes, std::size_t axis)
+[[noreturn]] void RefuseComponents(const std::vector<Axis>& axes, std::size_t axis)
 {
-  const std::string components = std::to_string(axes[axis].Size);
-  if (const std::string layers = DescribeLayers(header); !layers.empty())
-  {
-    Refuse("its segments overlap, so that they are stored in ", components, " layers: ", layers,
-      "; a label image has one label a voxel: in 3D Slicer, export the segmentation to a label "
-      "map, which decides for one segment where several overlap, and save that");
-  }
-  Refuse("it has ", components,
+  Refuse("it has ", axes[axis].Size,
     " components a voxel (colours or vectors); a label image has one: export it as a label map "
     "first, or, if they are time frames, save an image of four dimensions, or give their axis (",
     axis, ") the kind 'list'");
@@ -263,9 +256,11 @@ Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const
       "its header gives no space direction to axis ", a, ", which has ", axes[a].Size,
       " samples: if they are time frames, give that axis the kind 'list', or use a space of four "
       "dimensions such as left-posterior-superior-time");
-    if (!isTime || (axes[a].Kind == "list" && !DescribeLayers(header).empty()))
+    const bool isSequence = header.FindPair("axis " + std::to_string(a) + " index values");
+    roles.HasLayers = (!isTime || (axes[a].Kind == "list" && !isSequence)) && HasSegments(header);
+    if (!isTime && !roles.HasLayers)
     {
-      RefuseComponents(header, axes, a);
+      RefuseComponents(axes, a);
     }
     RefuseIf(roles.Frames.has_value(), "it has ", axes.size(),
       " dimensions; voxplex meshes images of three, and of four with time as one: extract one of "
@@ -455,7 +450,7 @@ ScalarImage ReadNRRD(const std::string& path, Reading& reading)
   SetSizes(image, sizes);
   PlaceImage(header, axes, roles, space, image, reading);
   WarnOfUnit(header, roles, reading);
-  if (roles.Frames)
+  if (roles.Frames && !roles.HasLayers)
   {
     AdoptTimes(header, axes[*roles.Frames], *roles.Frames, image, reading);
   }
@@ -465,6 +460,10 @@ ScalarImage ReadNRRD(const std::string& path, Reading& reading)
     const auto before = static_cast<std::size_t>(std::count_if(roles.Space.begin(),
       roles.Space.end(), [&roles](std::size_t a) { return a < *roles.Frames; }));
     MoveFramesToTheEnd(image, before, reading);
+  }
+  if (roles.HasLayers)
+  {
+    return CombineLayers(header, image, reading);
   }
   reading.Labels = ReadSegments(header, reading.Warnings);
   return image;

@@ -14,6 +14,7 @@
 #include "FileError.h"
 #include "InputFile.h"
 #include "LabelTable.h"
+#include "MaskUnion.h"
 #include "ScalarImage.h"
 
 #include <cstddef>
@@ -33,6 +34,9 @@ struct Reading
 
   /** Whether a header may name data files that are not in its folder or below. */
   bool DataFilesAnywhere = false;
+
+  /** Of segments in several layers. */
+  Overlap Rule = Overlap::Smallest;
 
   /** What was odd but could be read: a line each, without the name of the image. */
   std::vector<std::string> Warnings;
@@ -59,7 +63,7 @@ void WarnOfSpacing(Reading& reading);
  *
  * A fourth axis of time is one of the space ("...-time"), of the kind time or list (3D Slicer's sequences, with the
  * times of their "axis 0 index values"), or the last of four that have no space. It may be at any place in the file.
- * Segments of 3D Slicer are given as labels.
+ * Segments of 3D Slicer are given as labels; those in several layers are numbered in their order.
  */
 bool IsNRRD(const InputFile& file);
 ScalarImage ReadNRRD(const std::string& path, Reading& reading);

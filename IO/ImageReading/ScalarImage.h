@@ -11,10 +11,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace voxplex::io
@@ -96,6 +99,20 @@ inline std::optional<ScalarType> FindType(std::string_view name, const TypeNames
 constexpr std::size_t SizeOf(ScalarType type)
 {
   return Dispatch(type, [](auto zero) { return sizeof zero; });
+}
+
+/** Whether a scalar type has this very number. */
+template <typename T>
+bool Holds(std::int64_t label)
+{
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    return label <= std::int64_t{ 1 } << std::numeric_limits<T>::digits;
+  }
+  else
+  {
+    return std::in_range<T>(label);
+  }
 }
 
 /**

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Segments.h"
 
+#include "MaskUnion.h"
+#include "Readers.h"
 #include "Text.h"
 #include "TextHeader.h"
 
@@ -9,6 +11,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <unordered_map>
 
 namespace voxplex::io
 {
@@ -108,6 +111,17 @@ std::vector<Segment> ListSegments(const TextHeader& header)
   return segments;
 }
 
+bool IsLabel(const Segment& segment, std::vector<std::string>& warnings)
+{
+  const bool isLabel = segment.Label() > 0;
+  if (!isLabel)
+  {
+    warnings.push_back("the segment '" + Excerpt(segment.Name()) +
+      "' has a value that is not a label, and its name is not used");
+  }
+  return isLabel;
+}
+
 } // namespace
 
 LabelTable ReadSegments(const TextHeader& header, std::vector<std::string>& warnings)
@@ -115,12 +129,7 @@ LabelTable ReadSegments(const TextHeader& header, std::vector<std::string>& warn
   LabelTable table;
   for (const Segment& segment : ListSegments(header))
   {
-    if (segment.Label() <= 0)
-    {
-      warnings.push_back("the segment '" + Excerpt(segment.Name()) +
-        "' has a value that is not a label, and its name is not used");
-    }
-    else
+    if (IsLabel(segment, warnings))
     {
       table.Entries.emplace(segment.Label(), LabelTable::Entry{ segment.Name(), segment.Color() });
     }
@@ -129,20 +138,30 @@ LabelTable ReadSegments(const TextHeader& header, std::vector<std::string>& warn
   return table;
 }
 
-std::string DescribeLayers(const TextHeader& header)
+bool HasSegments(const TextHeader& header)
 {
-  std::map<std::int64_t, std::string> layers;
+  return !ListSegments(header).empty();
+}
+
+ScalarImage CombineLayers(const TextHeader& header, const ScalarImage& layers, Reading& reading)
+{
+  MaskUnion segments(layers, reading.Allocate, "segments");
+  std::map<std::int64_t, std::unordered_map<std::int64_t, std::uint32_t>> numbers; // of each layer
   for (const Segment& segment : ListSegments(header))
   {
-    std::string& names = layers[segment.Layer()];
-    names += (names.empty() ? "" : ", ") + Excerpt(segment.Name());
+    if (IsLabel(segment, reading.Warnings))
+    {
+      const std::uint32_t number = segments.AddName(segment.Name());
+      numbers[segment.Layer()].emplace(segment.Label(), number);
+      reading.Labels.Entries[number] = { segment.Name(), segment.Color() };
+    }
   }
-  std::string text;
-  for (const auto& [layer, names] : layers)
+  for (int layer = 0; layer < layers.Frames; ++layer)
   {
-    text += (text.empty() ? "" : ", ") + std::to_string(layer + 1) + " (" + names + ")";
+    segments.AddLayer(layers, layer, numbers[layer]);
   }
-  return text;
+  LeaveOutOtherTexts(reading.Labels, reading.Warnings);
+  return segments.Finish(reading.Rule, reading.Warnings);
 }
 
 } // namespace voxplex::io

@@ -13,6 +13,7 @@
 #define voxplex_io_Segments_h
 
 #include "LabelTable.h"
+#include "ScalarImage.h"
 
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ namespace voxplex::io
 {
 
 class TextHeader;
+struct Reading;
 
 /**
  * Names and colours by label value; empty if the file lists no segments. Of two segments with one value
@@ -31,8 +33,16 @@ class TextHeader;
  */
 LabelTable ReadSegments(const TextHeader& header, std::vector<std::string>& warnings);
 
-/** "1 (Tibia, Femur), 2 (Cartilage)": the layers, counted from 1, and their segments' names. */
-std::string DescribeLayers(const TextHeader& header);
+/** Whether the file lists segments. */
+bool HasSegments(const TextHeader& header);
+
+/**
+ * One label a voxel of segments that overlap, by the rule of the reading. They are numbered 1, 2, ... as they are
+ * listed, and their names and colours become those of the reading.
+ *
+ * @param layers an image whose frames are layers
+ */
+ScalarImage CombineLayers(const TextHeader& header, const ScalarImage& layers, Reading& reading);
 
 } // namespace voxplex::io
 

@@ -4,7 +4,7 @@
  * @file ReaderMain.cxx
  * @brief The program that reads one image for another process, which lives whatever the image does here.
  *
- *     voxplexImageReader PATH SERIES ANYWHERE
+ *     voxplexImageReader PATH SERIES ANYWHERE RULE
  *
  * Standard output receives the greeting and the answer (AnswerMessage.h). Descriptor 3 is the memory for voxels.
  */
@@ -64,14 +64,15 @@ AnswerMessage Read(const ImageRequest& request)
 
 int main(int argc, char** argv)
 {
-  if (argc != 4)
+  if (argc != 5)
   {
     return 2;
   }
 #if defined(__linux__)
   prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
-  const ImageRequest request{ argv[1], argv[2], std::strcmp(argv[3], "1") == 0 };
+  const ImageRequest request{ argv[1], argv[2], std::strcmp(argv[3], "1") == 0,
+    std::strcmp(argv[4], "1") == 0 ? Overlap::Order : Overlap::Smallest };
   if (!Write(Greeting))
   {
     return 1;

@@ -26,8 +26,8 @@ std::uint64_t MemoryOfMachine()
 }
 
 /** Maps whole pages around what is asked for. */
-std::shared_ptr<void> Map(
-  int descriptor, std::uint64_t offset, std::size_t bytes, int flags, bool isGivenBack)
+std::shared_ptr<void> Map(int descriptor, std::uint64_t offset, std::size_t bytes, int flags,
+  [[maybe_unused]] bool isGivenBack)
 {
   const std::uint64_t inPage = offset % PageSize();
   const std::size_t length = bytes + static_cast<std::size_t>(inPage);
@@ -38,7 +38,7 @@ std::shared_ptr<void> Map(
     throw std::bad_alloc();
   }
   return { static_cast<std::byte*>(pages) + inPage,
-    [pages, length, descriptor, start, isGivenBack](void*)
+    [=](void*)
     {
       munmap(pages, length);
 #if defined(FALLOC_FL_PUNCH_HOLE)
@@ -101,7 +101,12 @@ std::uint64_t FixSharedMemory(int descriptor)
 
 std::shared_ptr<void> MapSharedMemory(int descriptor, std::uint64_t offset, std::size_t bytes)
 {
-  return Map(descriptor, offset, bytes, MAP_SHARED | MAP_POPULATE, false);
+#if defined(MAP_POPULATE)
+  constexpr int flags = MAP_SHARED | MAP_POPULATE;
+#else
+  constexpr int flags = MAP_SHARED;
+#endif
+  return Map(descriptor, offset, bytes, flags, false);
 }
 
 } // namespace voxplex::io

@@ -10,7 +10,7 @@ import errno
 import os
 import re
 import tempfile
-from typing import TYPE_CHECKING, Any, Iterator, List, Mapping, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy
 from numpy.typing import ArrayLike
@@ -26,15 +26,21 @@ if TYPE_CHECKING:
 _IS_FULL = re.compile(r"(/voxplex-\w{8}/|cannot write the (image|mesh):).*(No space left|quota exceeded)", re.DOTALL)
 
 
-def read_segmentation(path: Path, *, space: Literal["LPS", "RAS"] = "LPS", series_uid: Optional[str] = None,
-                      label_table: Optional[Path] = None, spacing: Optional[ArrayLike] = None,
+def read_segmentation(path: Union[Path, Sequence[Path]], *, space: Literal["LPS", "RAS"] = "LPS",
+                      series_uid: Optional[str] = None, overlap: Literal["smallest", "order"] = "smallest",
+                      resample_masks: bool = False, label_table: Optional[Path] = None, spacing: Optional[ArrayLike] = None,
                       origin: Optional[ArrayLike] = None, direction: Optional[ArrayLike] = None,
                       data_files_anywhere: bool = False) -> Image:
     """Reads a label image, or a time series of them, with its place in space and the names of its labels.
 
-    path: a file (NRRD, NIfTI, MetaImage, DICOM, TIFF, VTK, GIPL, MRC), or a folder with a DICOM series.
+    path: a file (NRRD, NIfTI, MetaImage, DICOM, TIFF, VTK, GIPL, MRC), or a folder with a DICOM series. Several files, or
+        a folder of them, are masks, one for each structure: they become labels 1, 2, ... with the names of their files.
     space: the coordinates of the image, those of DICOM and ITK (LPS) or those of NIfTI (RAS).
     series_uid: which series, if the folder holds several.
+    overlap: which of the masks that have a voxel gets it: the smallest (of equals the first), or the first in order.
+        Also of segments of a .seg.nrrd file.
+    resample_masks: whether masks on different grids are resampled to that with the smallest voxels, by nearest
+        neighbour, and not refused.
     label_table: a text file with the names and colours of labels, if the image has none itself.
     spacing, origin, direction: in place of what the file says, for formats that do not know them (TIFF), as for
         :class:`Image`. The last two are in the coordinates of space.
@@ -44,16 +50,26 @@ def read_segmentation(path: Path, *, space: Literal["LPS", "RAS"] = "LPS", serie
     Raises FileNotFoundError; FileError (an OSError) for what cannot be read; ValueError for a spacing, origin or
     direction that is none.
     """
-    options = ["--space=" + space_of(space).lower(), *place_options(place_of(spacing, origin, direction))]
+    options = ["--space=" + space_of(space).lower(), f"--overlap={overlap}", *place_options(place_of(spacing, origin, direction))]
     for option, value in (("series", series_uid), ("label-table", None if label_table is None else existing(label_table))):
         if value is not None:
             options.append(f"--{option}={value}")
+    if resample_masks:
+        options.append("--resample-masks")
     if data_files_anywhere:
         options.append("--data-files-anywhere")
     with temporary_folder() as folder:
         image = os.path.join(folder, "image.nrrd")
-        program.run(["--input=" + existing(path), *options, "--save-image=" + image])
+        program.run([*input_options(path), *options, "--save-image=" + image])
         return read_nrrd(image)
+
+
+def input_options(paths: Union[Path, Sequence[Path]]) -> List[str]:
+    """The options for an image, or for masks."""
+    files = [paths] if isinstance(paths, (str, os.PathLike)) else list(paths)
+    if not files:
+        raise ValueError("the list of files is empty")
+    return ["--input=" + existing(file) for file in files]
 
 
 def existing(path: Path) -> str:

@@ -115,10 +115,12 @@ class Image(HasFields):
         return result
 
 
-def image_of(image: Any, geometry: Mapping[str, Any], times: Optional[ArrayLike]) -> Union[Image, str]:
-    """What mesh() takes for an image: an Image, or the path of a file."""
+def image_of(image: Any, geometry: Mapping[str, Any], times: Optional[ArrayLike]) -> Union[Image, List[str]]:
+    """What mesh() takes for an image: an Image, or the path of a file, or those of masks."""
     if isinstance(image, (str, os.PathLike)):
-        return os.fsdecode(image)
+        return [os.fsdecode(image)]
+    if isinstance(image, (list, tuple)) and image and times is None and all(isinstance(one, (str, os.PathLike)) for one in image):
+        return [os.fsdecode(one) for one in image]
     kind = type(image).__module__.partition(".")[0]
     has_place = isinstance(image, Image) or hasattr(image, "IsA") or kind in ("SimpleITK", "itk", "nibabel")
     if geometry and has_place:

@@ -109,7 +109,7 @@ def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
             arguments += labels_of(labels, source.names if isinstance(source, Image) else None)
         if source is not None:
             arguments += input_of(source, folder, False, geometry, times)
-            if isinstance(source, str) and space is not None:
+            if not isinstance(source, Image) and space is not None:
                 arguments.append("--space=" + space.lower())
         elif times is not None:
             arguments += number_list("frame-times", numpy.ravel(times))

@@ -56,7 +56,8 @@ def run(arguments: List[str], progress: Optional[Progress] = None,
     words: what messages are to say in place of texts of the program's, such as the names of files that only pass data.
 
     Raises MeshingError, ArgumentError or FileError with the program's message, MeshingCancelled, what the callback
-    raises, and RuntimeError if the program cannot be started. Its warnings are issued as MeshingWarning, at the first caller outside of this package.
+    raises, and RuntimeError if the program cannot be started. Its warnings are issued as MeshingWarning, at the first
+    caller outside of this package.
     """
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be a function, not {type(progress).__name__}")

@@ -99,6 +99,57 @@ class Selection(NamesTestCase):
         self.assertEqual(report["label_names_from"], str(AAL)[:-3] + ".txt")
 
 
+class Masks(ProgramTestCase):
+    """Several files are labels 1, 2, ... with their names."""
+
+    def setUp(self):
+        super().setUp()
+        self.large = images.write_nrrd(self.folder / "Body.nrrd", images.ball(20, 8.0))
+        self.small = images.write_nrrd(self.folder / "Lung.left.seg.nrrd", images.ball(20, 5.0))
+        self.shared = images.ball(20, 5.0).sum()
+        (self.folder / "masks").mkdir()
+        for name, image in (("b10.nrrd", images.ball(20, 5.0)), ("b9.nrrd", images.ball(20, 8.0))):
+            images.write_nrrd(self.folder / "masks" / name, image)
+
+    def test_inputs(self):
+        for arguments in (("--input", self.large, self.small), (f"--input={self.large}", f"--input={self.small}"),
+                          ("--input", self.large, "--input", self.small)):
+            statistics = self.statistics(*arguments, "--delta", "2.5", "--output", "m.vtu",
+                                         warning=f"masks overlap in {self.shared} voxels, which the smallest of them gets: "
+                                                 rf"Body and Lung.left \({self.shared}\)")
+            self.assertEqual(names_of(self.folder / "m.vtu"), {1: "Body", 2: "Lung.left"})
+            self.assertEqual({label: one["name"] for label, one in statistics["labels"].items()},
+                             {"1": "Body", "2": "Lung.left"})
+            parameters = statistics["parameters"]
+            self.assertEqual((parameters["input"], parameters["overlap"], parameters["resample_masks"]),
+                             ([self.large, self.small], "smallest", False))
+            self.assertEqual(statistics["label_names_from"], self.large)
+
+    def test_folder(self):
+        statistics = self.statistics("--input", "masks", "--labels", "b10", "--delta", "2.5", "--output", "m.vtu",
+                                     warning=f"masks overlap in {self.shared} voxels")
+        self.assertEqual(names_of(self.folder / "m.vtu"), {1: "b9", 2: "b10"})
+        self.assertEqual(set(meshfiles.read_tetrahedra(self.folder / "m.vtu").labels), {2})
+        self.assertEqual(statistics["parameters"]["input"], "masks")
+
+    def test_order(self):
+        self.mesh("--input", self.small, self.large, "--overlap", "order", "--delta", "2.5", "--output", "m.vtu",
+                  warning="which the first of them gets")
+        self.assertEqual(names_of(self.folder / "m.vtu"), {1: "Lung.left", 2: "Body"})
+
+    def test_grids(self):
+        coarse = images.write_nrrd(self.folder / "coarse.nrrd", images.ball(10, 4.0),
+                                   images.Geometry((0.25,) * 3, (2.0,) * 3))
+        self.assert_refused(1, "one grid, but '.*Body.nrrd' has the sizes 20 20 20, and '.*coarse.nrrd' 10 10 10; give "
+                            "--resample-masks", "--input", self.large, coarse, "--delta", "2.5")
+        self.mesh("--input", coarse, self.small, "--resample-masks", "--delta", "2.5", "--output", "m.vtu",
+                  warning="masks overlap")
+        self.assertEqual(names_of(self.folder / "m.vtu"), {1: "coarse", 2: "Lung.left"})
+
+    def test_output_is_a_mask(self):
+        self.assert_refused(1, "Lung.left.seg.nrrd", "--input", self.large, self.small, "--save-image", self.small)
+
+
 class Refusal(NamesTestCase):
     def refuse(self, pattern, *arguments, status=2):
         self.assert_refused(status, pattern, "--input", self.image, "--output", "m.vtu", *arguments)

@@ -17,6 +17,7 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
+from vtkmodules.vtkCommonCore import vtkVersion
 
 from matrix import SOUND
 from matrix.damage import claimed_sizes, damaged

@@ -253,15 +253,6 @@ class Segments(FolderTestCase):
         self.assertEqual(set(table_of(image)), {3, 7})
         self.assertEqual(image.GetDimensions(), (4, 4, 3))
 
-    def test_overlapping(self):
-        path = images.write_nrrd(
-            self.folder / "s.seg.nrrd", np.stack([slices([1, 2]), slices([1, 1])], axis=-1), components=True,
-            header_lines={"kinds": "list domain domain domain"}, key_values={
-                "Segment0_ID": "a", "Segment0_Name": "Bone", "Segment0_LabelValue": "1", "Segment0_Layer": "0",
-                "Segment1_ID": "b", "Segment1_Name": "Tumour", "Segment1_LabelValue": "1", "Segment1_Layer": "1",
-                "Segment2_ID": "c", "Segment2_Name": "Fat", "Segment2_LabelValue": "2", "Segment2_Layer": "0"})
-        self.refused(r"segments overlap.* 2 layers: 1 \(Bone, Fat\), 2 \(Tumour\); .*label map", path)
-
     def test_damaged_keys(self):
         path = images.write_nrrd(self.folder / "s.seg.nrrd", slices([1, 2]), key_values={
             "Segment0_ID": "a", "Segment0_Name": "Bone", "Segment0_LabelValue": "x",

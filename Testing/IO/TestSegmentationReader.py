@@ -199,7 +199,10 @@ class Errors(FolderTestCase):
         self.refused("^cannot read '.*none': there is no such file or folder$", self.folder / "none")
         self.refused("the file is empty", self.folder / "empty.nrrd")
         self.refused("not an image in a format that voxplex reads", self.folder / "text.nrrd")
-        self.refused("the folder holds no DICOM images", self.folder)
+        self.refused("empty.nrrd': the file is empty", self.folder)
+        (self.folder / "texts").mkdir()
+        (self.folder / "texts" / "a.txt").write_text("hello")
+        self.refused("the folder holds no DICOM images, and no files that are named as masks", self.folder / "texts")
         self.refused("^no file name is set$", None)
         self.refused("^no file name is set$", "")
 
@@ -260,7 +263,8 @@ class Execution(FolderTestCase):
 
     def test_print(self):
         text = str(self.reader(images.write_nrrd(self.folder / "i.nrrd", images.ball(8, 3.0))))
-        for line in ("FileName: .*i.nrrd", "SeriesUID: .none", "LabelTableFileName: .none", "Space: LPS", "Spacing: 0 0 0",
+        for line in ("FileName: .*i.nrrd", "SeriesUID: .none", "LabelTableFileName: .none", "FileNames: 0", "Overlap: smallest",
+                     "ResampleMasks: off", "Space: LPS", "Spacing: 0 0 0",
                      "Direction: 0 0 0 0 0 0 0 0 0", "DataFilesAnywhere: off", "Frames: 1"):
             self.assertRegex(text, line)
 

@@ -141,6 +141,45 @@ class Files(unittest.TestCase):
         image = voxplex.read_segmentation(path, data_files_anywhere=True)
         numpy.testing.assert_array_equal(image.voxels, self.labels)
 
+    def test_masks(self):
+        """Several files, or a folder of them."""
+        folder = self.folder / "masks"
+        folder.mkdir()
+        paths = [folder / f"{name}.nrrd" for name in ("tibia", "femur")]
+        write_nrrd(paths[0], (self.labels > 0).astype(numpy.uint8))
+        write_nrrd(paths[1], (self.labels == 9).astype(numpy.uint8))
+        both = numpy.where(self.labels == 9, 2, self.labels > 0)
+        words = "^masks overlap in 288 voxels, which the smallest of them gets: tibia and femur .288.$"
+        with self.assertWarnsRegex(voxplex.MeshingWarning, words):
+            image = voxplex.read_segmentation(paths)
+        numpy.testing.assert_array_equal(image.voxels, both)
+        self.assertEqual(image.names, {1: "tibia", 2: "femur"})
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self.assertEqual(voxplex.read_segmentation(paths, overlap="order").names, {1: "tibia"})
+            self.assertEqual(voxplex.read_segmentation(folder).names, {1: "femur", 2: "tibia"})
+            for source, names in ((folder, {1: "femur", 2: "tibia"}), (tuple(map(str, paths)), {1: "tibia", 2: "femur"})):
+                mesh = voxplex.mesh(source, 2.0)
+                self.assertEqual((mesh.names, set(mesh.labels)), (names, {1, 2}))
+                self.assertEqual(voxplex.quality(mesh, source)["image"]["lost_labels"], [])
+            # With times they are frames.
+            self.assertEqual(voxplex.mesh(paths, 2.0, times=(0, 1), pick_slivers=False).cells.shape[1], 5)
+        coarse = self.folder / "coarse.nrrd"
+        coarse.write_bytes(paths[0].read_bytes().replace(b"space origin: (10.0", b"space origin: (10.4"))
+        with self.assertRaisesRegex(voxplex.FileError, "the origin .*; give read_segmentation.*resample_masks=True"):
+            voxplex.mesh([paths[0], coarse])
+        with self.assertWarns(voxplex.MeshingWarning):
+            image = voxplex.read_segmentation([paths[1], coarse], resample_masks=True)
+        self.assertEqual(image.names, {1: "femur", 2: "coarse"})
+        with self.assertRaisesRegex(FileNotFoundError, "none"):
+            voxplex.read_segmentation([*paths, self.folder / "none"])
+        with self.assertRaisesRegex(ValueError, "list of files is empty"):
+            voxplex.read_segmentation([])
+        with self.assertRaisesRegex(ValueError, "overlap.*largest"):
+            voxplex.read_segmentation(paths, overlap="largest")
+        with self.assertRaisesRegex(TypeError, "size_image must be one image"):
+            voxplex.mesh(self.labels, 2.0, size_image=paths)
+
     def test_read_series(self):
         image = voxplex.read_segmentation(self.series)
         numpy.testing.assert_array_equal(image.voxels, beating())

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file MaskUnion.h
+ * @brief Several masks, which may overlap, become one label image.
+ */
+#ifndef voxplex_io_MaskUnion_h
+#define voxplex_io_MaskUnion_h
+
+#include "ScalarImage.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace voxplex::io
+{
+
+/** Which of the masks that have a voxel gets it. */
+enum class Overlap
+{
+  Smallest, ///< the one with the fewest voxels, of equals the first
+  Order     ///< the first
+};
+
+/** Whole numbers are inside unless 0, real ones, which are probabilities, above 0.5. */
+template <typename T>
+constexpr bool IsInside(T voxel)
+{
+  return std::is_floating_point_v<T> ? voxel > T(0.5) : voxel != T(0);
+}
+
+/**
+ * Takes masks one after the other, of which none is kept: it has two bytes a voxel for the set of masks that have it.
+ * Different sets are few, and are listed apart, so that all sizes and overlaps are exact.
+ */
+class MaskUnion
+{
+public:
+  /**
+   * @param grid where all masks lie; its voxels are not used
+   * @param word what messages call masks
+   */
+  MaskUnion(const ScalarImage& grid,
+    const std::function<std::shared_ptr<void>(std::size_t)>& allocate, std::string word);
+
+  /** Of the next mask, which need not have voxels. Labels are numbers from 1 on. */
+  std::uint32_t AddName(std::string name);
+
+  /**
+   * Adds the last named mask.
+   *
+   * @throws FileError with the reason alone: real numbers that are no probabilities, more than 65535 sets of masks
+   */
+  void AddMask(const ScalarImage& mask);
+
+  /** Adds those masks whose numbers the values of a frame stand for. Other values are outside. */
+  void AddLayer(const ScalarImage& image, int frame,
+    const std::unordered_map<std::int64_t, std::uint32_t>& numbers);
+
+  /** Makes labels of the sets. @param warnings receives what overlaps, and what has no voxels, a line each */
+  ScalarImage Finish(Overlap rule, std::vector<std::string>& warnings);
+
+private:
+  using Set = std::uint16_t;
+  using Counts = std::vector<std::uint64_t>;
+
+  template <typename T, typename TNumberOf>
+  void Add(const T* voxels, TNumberOf&& numberOf);
+  Set With(Set set, std::uint32_t number);
+  void WarnOfOverlaps(Overlap rule, const Counts& voxels, std::vector<std::string>& warnings) const;
+  void WarnOf(const std::string& what, const std::vector<std::uint32_t>& numbers,
+    std::vector<std::string>& warnings) const;
+  const std::string& NameOf(std::uint32_t number) const { return this->Names[number - 1]; }
+
+  ScalarImage Image; ///< of sets
+  std::string Word;
+  std::vector<std::string> Names;
+  std::vector<std::uint32_t> WithSeveralValues;
+  std::vector<std::vector<std::uint32_t>> Members{ {} }; ///< of each set; the first is background
+  std::map<std::pair<Set, std::uint32_t>, Set> Successors;
+};
+
+} // namespace voxplex::io
+
+#endif

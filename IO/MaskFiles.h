@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file MaskFiles.h
+ * @brief Masks, each in a file of its own, as one label image.
+ */
+#ifndef voxplex_io_MaskFiles_h
+#define voxplex_io_MaskFiles_h
+
+#include "ImageReading/ReadImage.h"
+
+#include <string>
+#include <vector>
+
+namespace voxplex::io
+{
+
+/**
+ * Reads what one path or several name.
+ *
+ * Several files, and those of a folder that holds images and no DICOM file, are masks: labels 1, 2, ... in the order
+ * given (of a folder in that of names, rib_2 before rib_10), named by the files without extensions. They are read one
+ * after the other, and each is forgotten before the next. Anything else is read by ReadImage().
+ *
+ * @param paths not empty
+ * @param request its path is not used
+ * @param resample whether masks on different grids are resampled to the finest one, by nearest neighbour; all files
+ *   are then read twice
+ * @throws FileError as ReadImage(), and for grids that differ, time frames, single slices, and values of no mask
+ */
+ImageAnswer ReadImageOrMasks(
+  const std::vector<std::string>& paths, const ImageRequest& request, bool resample);
+
+} // namespace voxplex::io
+
+#endif

@@ -1,0 +1,327 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Many masks, and segments in layers, as one label image: beside what NumPy makes of them."""
+import importlib.util
+import itertools
+import re
+import unittest
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+import images
+import voxplex
+from iotesting import FolderTestCase, table_of, warnings_of
+
+try:
+    import nibabel
+except ModuleNotFoundError:
+    nibabel = None
+
+EXAMPLE = Path(__file__).resolve().parents[2] / "Examples" / "Python" / "mesh_masks.py"
+SMALLEST, ORDER = 0, 1
+
+
+def voxels(image):
+    """Indexed [k, j, i]."""
+    return vtk_to_numpy(image.GetPointData().GetArray("Labels")).reshape(image.GetDimensions()[::-1])
+
+
+def natural(name):
+    return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", name)]
+
+
+def combined(masks, rule):
+    """Labels of boolean arrays: what comes last is painted first."""
+    sizes = [mask.sum() for mask in masks]
+    order = sorted(range(len(masks)), key=lambda n: (sizes[n], n) if rule == SMALLEST else n)
+    labels = np.zeros(masks[0].shape, dtype=np.uint16)
+    for number in reversed(order):
+        labels[masks[number]] = number + 1
+    return labels
+
+
+def box(shape, *ranges):
+    array = np.zeros(shape, dtype=np.uint8)
+    array[tuple(slice(*one) for one in ranges)] = 1
+    return array
+
+
+class MaskTestCase(FolderTestCase):
+    def read_masks(self, paths, **properties):
+        """A reader that has executed without an error."""
+        reader = voxplex.vtkSegmentationReader()
+        for path in paths:
+            reader.AddFileName(path)
+        for name, value in properties.items():
+            getattr(reader, "Set" + name)(value)
+        reader.Update()
+        self.assertEqual(reader.GetErrorMessage(), "")
+        return reader
+
+    def masks_refused(self, pattern, paths, **properties):
+        reader = voxplex.vtkSegmentationReader()
+        for path in paths:
+            reader.AddFileName(path)
+        for name, value in properties.items():
+            getattr(reader, "Set" + name)(value)
+        reader.Update()
+        self.assertRegex(reader.GetErrorMessage(), pattern)
+        self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
+
+    def write(self, **arrays):
+        return [images.write_nrrd(self.folder / f"{name}.nrrd", array) for name, array in arrays.items()]
+
+
+class WholeBody(MaskTestCase):
+    """The example's 100 ellipsoids."""
+
+    @classmethod
+    def setUpClass(cls):
+        spec = importlib.util.spec_from_file_location("mesh_masks", EXAMPLE)
+        cls.phantom = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(cls.phantom)
+        cls.masks = {name: cls.phantom.inside(centre, radii) for name, centre, radii in cls.phantom.structures()}
+        cls.names = sorted(cls.masks, key=natural)
+
+    def test_folder(self):
+        self.assertEqual(len(self.masks), 100)
+        self.phantom.write_phantom(self.folder)
+        for name in ("report.json", "volumes.csv", ".hidden.txt"):
+            (self.folder / name).write_text("{}")
+        (self.folder / "deeper").mkdir()
+        masks = [self.masks[name] for name in self.names]
+        for rule, word in ((SMALLEST, "smallest"), (ORDER, "first")):
+            reader = self.reader(self.folder, Overlap=rule)
+            self.assertEqual(reader.GetErrorMessage(), "")
+            labels = voxels(reader.GetOutput())
+            np.testing.assert_array_equal(labels, combined(masks, rule))
+            self.assertEqual({label: name for label, (name, _) in table_of(reader.GetOutput()).items()},
+                             {n + 1: name for n, name in enumerate(self.names) if n + 1 in labels})
+            told = warnings_of(reader)
+            self.assertEqual(told[0], f"{self.folder}: left out what is no image: report.json, volumes.csv")
+            self.check_overlaps(told[1], masks, word)
+            hidden = [name for n, name in enumerate(self.names) if n + 1 not in labels]
+            self.assertEqual(told[2:], [f"masks of which overlaps leave no voxel: {', '.join(hidden)}"] if hidden else [])
+            self.assertEqual(bool(hidden), rule == ORDER)
+
+    def check_overlaps(self, warning, masks, word):
+        shared = Counter({(a, b): int((masks[a] & masks[b]).sum()) for a, b in itertools.combinations(range(100), 2)})
+        pairs = [(pair, count) for pair, count in shared.most_common() if count]
+        total = int((np.sum(masks, axis=0) > 1).sum())
+        text = ", ".join(f"{self.names[a]} and {self.names[b]} ({count})" for (a, b), count in pairs[:5])
+        self.assertEqual(warning, f"masks overlap in {total} voxels, which the {word} of them gets: {text}, "
+                                  f"{len(pairs) - 5} other pairs")
+
+
+@unittest.skipIf(nibabel is None, "nibabel was not found (apt-get install python3-nibabel)")
+class Grids(MaskTestCase):
+    """Oblique masks of nibabel's, each with a grid of its own."""
+
+    TURN = np.array([[0.8, -0.6, 0], [0.48, 0.64, -0.6], [0.36, 0.48, 0.8]])
+    GRIDS = {  # sizes, spacing, direction, origin: that of the heart has the smallest voxels
+        "liver": ((30, 28, 24), (1.9, 2.1, 2.3), np.eye(3), (-11.3, 8.7, 20.2)),
+        "heart": ((41, 37, 44), (1.1, 1.2, 1.3), TURN, (-14.1, 12.4, 3.3)),
+        "body": ((26, 40, 33), (2.5, 1.6, 1.7), TURN @ np.diag([-1, 1, -1]), (21.06, -2.484, 48.612)),
+    }
+    BALLS = {"liver": ((6.0, 28.0, 44.0), 11.0), "heart": ((-9.0, 20.0, 44.0), 9.0), "body": ((-8.0, 20.0, 40.0), 24.0)}
+
+    def affine(self, name):
+        _, spacing, direction, origin = self.GRIDS[name]
+        return np.vstack([np.column_stack([direction @ np.diag(spacing), origin]), [0, 0, 0, 1]])
+
+    def mask(self, name):
+        """Indexed [i, j, k]."""
+        index = np.moveaxis(np.indices(self.GRIDS[name][0]), 0, -1)
+        places = index @ self.affine(name)[:3, :3].T + self.affine(name)[:3, 3]
+        centre, radius = self.BALLS[name]
+        return np.linalg.norm(places - centre, axis=-1) < radius
+
+    def save(self):
+        paths = []
+        for name in self.GRIDS:
+            paths.append(self.folder / f"{name}.nii.gz")
+            nibabel.save(nibabel.Nifti1Image(self.mask(name).astype(np.uint8), self.affine(name)), paths[-1])
+        return paths
+
+    def nearest(self, name):
+        """On the grid of the heart, indexed [i, j, k], and how many voxels that grid does not reach."""
+        mask = self.mask(name)
+        index = np.moveaxis(np.indices(self.GRIDS["heart"][0]), 0, -1)
+        between = np.linalg.inv(self.affine(name)) @ self.affine("heart")
+        near = np.rint(index @ between[:3, :3].T + between[:3, 3]).astype(int)
+        exists = ((near >= 0) & (near < mask.shape)).all(axis=-1)
+        result = np.zeros(self.GRIDS["heart"][0], dtype=bool)
+        result[exists] = mask[tuple(near[exists].T)]
+        back = np.argwhere(mask) @ np.linalg.inv(between)[:3, :3].T + np.linalg.inv(between)[:3, 3]
+        return result, int((~((back >= -0.5) & (back <= np.array(result.shape) - 0.5)).all(axis=-1)).sum())
+
+    def test_volumes_and_centroids(self):
+        masks, lost = zip(*(self.nearest(name) for name in self.GRIDS))
+        self.assertGreater(max(lost), 0)
+        for rule in (SMALLEST, ORDER):
+            reader = self.read_masks(self.save(), ResampleMasks=True, Overlap=rule, Space=1)
+            image = reader.GetOutput()
+            self.assertEqual(image.GetDimensions(), self.GRIDS["heart"][0])
+            expected = combined(masks, rule)
+            labels = voxels(image).T
+            affine = self.affine("heart")
+            for label in (1, 2, 3):
+                theirs, ours = np.argwhere(expected == label), np.argwhere(labels == label)
+                self.assertAlmostEqual(len(ours), len(theirs), delta=0.1)
+                centroid = [0.0] * 3
+                image.TransformContinuousIndexToPhysicalPoint(ours.mean(axis=0).tolist(), centroid)
+                truth = affine[:3, :3] @ theirs.mean(axis=0) + affine[:3, 3]
+                self.assertLess(np.linalg.norm(np.linalg.solve(affine[:3, :3], centroid - truth)), 0.1)
+            text = ", ".join(f"{name} {count}" for name, count in zip(self.GRIDS, lost) if count)
+            self.assertEqual(warnings_of(reader)[0], "masks reach beyond the finest grid, that of "
+                             f"'{self.folder}/heart.nii.gz', and lose voxels there: {text}")
+
+    def test_balls(self):
+        """The smallest, which no other cuts, has the volume and the centroid of a ball, too."""
+        reader = self.read_masks(self.save(), ResampleMasks=True, Overlap=SMALLEST, Space=1)
+        labels = voxels(reader.GetOutput()).T
+        centroid = [0.0] * 3
+        reader.GetOutput().TransformContinuousIndexToPhysicalPoint(np.argwhere(labels == 2).mean(axis=0).tolist(), centroid)
+        np.testing.assert_allclose(centroid, self.BALLS["heart"][0], atol=0.1)
+        volume = (labels == 2).sum() * 1.1 * 1.2 * 1.3
+        self.assertAlmostEqual(volume / (4 / 3 * np.pi * 9**3), 1, delta=0.01)
+
+    def test_refused(self):
+        paths = self.save()
+        self.masks_refused("one grid, but '.*liver.nii.gz' has the sizes 30 28 24, and '.*heart.nii.gz' 41 37 44; give "
+                           r"ResampleMasksOn\(\) to resample them to the finest grid", paths)
+
+    def test_what_differs(self):
+        plain = self.save()[0]
+        other = self.folder / "other.nii"
+        array = self.mask("liver").astype(np.uint8)
+        for what, row, column, value in (("spacing", 0, 0, 1.9005), ("spacing", 0, 0, 1.95), ("direction", 0, 1, 0.002),
+                                         ("origin", 1, 3, 8.8)):
+            affine = self.affine("liver")
+            affine[row, column] = value
+            nibabel.save(nibabel.Nifti1Image(array, affine), other)
+            if value == 1.9005:
+                continue
+            self.masks_refused(f"'.*liver.nii.gz' has the {what} .*, and '.*other.nii' ", [plain, other])
+        affine = self.affine("liver")
+        affine[0, 3] += 0.01
+        affine[0, 0] *= 1 + 1e-6
+        nibabel.save(nibabel.Nifti1Image(array, affine), other)
+        self.assertEqual(len(warnings_of(self.read_masks([plain, other]))), 2)  # overlap, and nothing is left
+
+
+class Rules(MaskTestCase):
+    SHAPE = (6, 7, 8)
+
+    def test_ties_and_losers(self):
+        first = box(self.SHAPE, (0, 3), (0, 3), (0, 4))
+        second = box(self.SHAPE, (0, 3), (0, 3), (2, 6))
+        paths = self.write(b_10=first, b_9=second, inner=box(self.SHAPE, (1, 2), (1, 2), (1, 2)), none=0 * first,
+                           copy=first)
+        reader = self.read_masks(paths)
+        expected = second * 2
+        expected[first > 0] = 1
+        expected[1, 1, 1] = 3
+        np.testing.assert_array_equal(voxels(reader.GetOutput()), expected)
+        self.assertEqual({label: name for label, (name, _) in table_of(reader.GetOutput()).items()},
+                         {1: "b_10", 2: "b_9", 3: "inner"})
+        self.assertEqual(warnings_of(reader), [
+            "masks overlap in 36 voxels, which the smallest of them gets: b_10 and copy (36), b_10 and b_9 (18), b_9 and copy "
+            "(18), b_10 and inner (1), inner and copy (1)",
+            "masks without a voxel: none", "masks of which overlaps leave no voxel: copy"])
+        reader.SetOverlap(ORDER)
+        reader.Update()
+        expected[1, 1, 1] = 1
+        np.testing.assert_array_equal(voxels(reader.GetOutput()), expected)
+        self.assertRegex(warnings_of(reader)[0], "which the first of them gets")
+        self.assertRegex(warnings_of(reader)[2], "no voxel: inner, copy$")
+        reader.ClearFileNames()
+        for path in reversed(paths):
+            reader.AddFileName(path)
+        reader.Update()
+        self.assertEqual({label: name for label, (name, _) in table_of(reader.GetOutput()).items()}, {1: "copy", 4: "b_9"})
+
+    def test_values(self):
+        mask = box(self.SHAPE, (1, 3), (1, 3), (1, 4))
+        probabilities = np.where(mask > 0, 0.51, 0.5).astype(np.float32)
+        probabilities[2, 2, 2] = 1.0
+        several = box(self.SHAPE, (4, 6), (4, 6), (4, 7)).astype(np.int16) * 7
+        several[5, 5, 5] = -2
+        reader = self.read_masks(self.write(a=probabilities, b=several, c=box(self.SHAPE, (0, 1), (0, 1), (0, 1)) * 255))
+        expected = mask + 2 * (several != 0)
+        expected[0, 0, 0] = 3
+        np.testing.assert_array_equal(voxels(reader.GetOutput()), expected)
+        self.assertEqual(warnings_of(reader), ["masks with several values, all of which are inside: b"])
+        for value in (2.0, -0.5, np.nan):
+            probabilities[0, 0, 0] = value
+            self.masks_refused("'.*/a.nrrd' is no mask, .* has the value .*probabilities from 0 to 1",
+                               self.write(b=mask, a=probabilities))
+
+    def test_no_masks(self):
+        mask = box(self.SHAPE, (1, 3), (1, 3), (1, 4))
+        self.masks_refused("'.*series.nrrd' is no mask.* 3 time frames", self.write(a=mask, series=np.stack([mask] * 3)))
+        self.masks_refused("'.*slice.nrrd' is no mask.* one slice", self.write(a=mask, slice=mask[:1]))
+        self.masks_refused("there is no such file", [*self.write(a=mask), self.folder / "none.nrrd"])
+        self.masks_refused("no file name is set", [""])
+
+    def test_one_file_is_an_image(self):
+        labels = images.two_labels(10, 4.0)
+        path = images.write_nrrd(self.folder / "labels.nrrd", labels)
+        np.testing.assert_array_equal(voxels(self.read_masks([path]).GetOutput()), labels)
+
+    def test_common_warnings_are_said_once(self):
+        mask = box(self.SHAPE, (1, 3), (1, 3), (1, 4))
+        paths = [images.write_nrrd(self.folder / f"m{n}.nrrd", np.roll(mask, n, axis=2), header_lines={
+            "space": None, "space directions": None, "space origin": None}) for n in (0, 3)]
+        self.assertEqual(len(warnings_of(self.read_masks(paths))), 1)
+        self.assertRegex(warnings_of(self.read_masks(paths))[0], "/m0.nrrd and 1 more: .*no spacing")
+
+    def test_folder_of_dicom(self):
+        """Whatever else is in it."""
+        array = images.ball(12, 4.0, label=3, dtype=np.uint16)
+        images.write_dicom_series(self.folder, array)
+        self.write(mask=box((12, 12, 12), (1, 3), (1, 3), (1, 3)))
+        np.testing.assert_array_equal(voxels(self.reader(self.folder).GetOutput()), array)
+
+
+class Layers(MaskTestCase):
+    """Segments of 3D Slicer that overlap."""
+
+    KEYS = {
+        "Segment0_ID": "a", "Segment0_Name": "Bone", "Segment0_LabelValue": "1", "Segment0_Layer": "0",
+        "Segment0_Color": "1 0 0", "Segment1_ID": "b", "Segment1_Name": "Tumour", "Segment1_LabelValue": "1",
+        "Segment1_Layer": "1", "Segment2_ID": "c", "Segment2_Name": "Fat", "Segment2_LabelValue": "2",
+        "Segment2_Layer": "0", "Segment3_ID": "d", "Segment3_Name": "Nothing", "Segment3_LabelValue": "9",
+        "Segment3_Layer": "7"}
+
+    def test_rules(self):
+        shape = (6, 7, 8)
+        bone, fat = box(shape, (0, 6), (0, 7), (0, 3)), box(shape, (0, 6), (0, 7), (3, 5))
+        tumour = box(shape, (2, 4), (2, 4), (1, 7))
+        layers = np.stack([bone + 2 * fat, tumour + 5 * bone * (1 - tumour)], axis=-1)  # 5 is no segment
+        path = images.write_nrrd(self.folder / "s.seg.nrrd", layers, images.Geometry((1, 2, 3), (1, 1, 2)), components=True,
+                                 header_lines={"kinds": "list domain domain domain"}, key_values=self.KEYS)
+        for rule, word in ((SMALLEST, "smallest"), (ORDER, "first")):
+            reader = self.reader(path, Overlap=rule)
+            expected = combined([bone > 0, tumour > 0, fat > 0], rule)
+            np.testing.assert_array_equal(voxels(reader.GetOutput()), expected)
+            self.assertEqual(reader.GetOutput().GetSpacing(), (1, 1, 2))
+            self.assertEqual(table_of(reader.GetOutput()), {1: ("Bone", (255, 0, 0)), 2: ("Tumour", None), 3: ("Fat", None)})
+            self.assertEqual(warnings_of(reader), [
+                f"{path}: segments overlap in 16 voxels, which the {word} of them gets: Bone and Tumour (8), Fat and Tumour (8)",
+                f"{path}: segments without a voxel: Nothing"])
+            self.assertEqual(reader.GetNumberOfFrames(), 1)
+
+    def test_sequence_with_names_is_none(self):
+        """What the program saves of a series."""
+        array = images.moving_balls(3, 8, 2.0, labels=(1, 2))
+        path = images.write_nrrd(self.folder / "s.nrrd", array, key_values={**self.KEYS, "axis 3 index values": "0 1 2"})
+        self.assertEqual(self.reader(path).GetNumberOfFrames(), 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
