@@ -551,7 +551,7 @@ class Installations(PanelTestCase):
         from voxplex import installation
         self.addCleanup(slicer.util.uninstall)
         installation.PROGRAM = Path("/nonexistent/voxplex")
-        self.check_failure("cannot be used: .*there is no /nonexistent/voxplex")
+        self.check_failure("cannot be used: the program /nonexistent/voxplex cannot be started: it is not there; ")
         self.assertEqual(slicer.util.questions, [])
 
     def test_program_that_cannot_be_started(self):

@@ -47,7 +47,8 @@ def requirePackage():
         importlib.invalidate_caches()
     try:
         package = loadPackage()
-        package.program.path()  # a checkout has none
+        if not Path(package.program.path()).exists():  # a checkout has none
+            raise RuntimeError(package.program.no_start("nothing"))
         return package
     except (ImportError, RuntimeError) as error:
         raise MeshingError("%s is installed, but cannot be used: %s. Restart Slicer" % (PACKAGE, error)) from None
