@@ -81,6 +81,8 @@ void pqVoxplexMeshing::onProgress(const QString& message, int percent)
   if (!this->Executes)
   {
     this->Executes = true;
+    // The progress manager keeps the mouse from the button's window, and so from the button. This filter does not.
+    this->WereUnblocked = progress->unblockEvents(true);
     QCoreApplication::instance()->installEventFilter(this);
     if (this->HandlesButton)
     {
@@ -91,10 +93,7 @@ void pqVoxplexMeshing::onProgress(const QString& message, int percent)
   if (this->HandlesButton && percent > 0 && QApplication::activeModalWidget() == nullptr)
   {
     this->HandlesEvents = true;
-    // The progress manager keeps the mouse from the button's window, and so from the button.
-    const bool unblocked = progress->unblockEvents(true);
     QCoreApplication::processEvents(QEventLoop::ExcludeSocketNotifiers);
-    progress->unblockEvents(unblocked);
     this->HandlesEvents = false;
   }
 }
@@ -136,9 +135,11 @@ void pqVoxplexMeshing::onProgressEnd()
   }
   this->Executes = false;
   QCoreApplication::instance()->removeEventFilter(this);
+  pqProgressManager* const progress = pqApplicationCore::instance()->getProgressManager();
+  progress->unblockEvents(this->WereUnblocked);
   if (this->HandlesButton)
   {
-    pqApplicationCore::instance()->getProgressManager()->setEnableAbort(false);
+    progress->setEnableAbort(false);
   }
   for (const Waiting& waiting : this->Postponed)
   {

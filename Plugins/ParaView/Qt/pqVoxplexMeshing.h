@@ -55,6 +55,7 @@ private:
   bool HandlesButton = false; ///< ParaView leaves the button to this
   bool Executes = false;
   bool HandlesEvents = false;
+  bool WereUnblocked = false; ///< what the progress manager did with input before
   QList<Waiting> Postponed;
   vtkPVLabelInformation::LabelMap Applied; ///< the table of labels that the colour maps got last
 };
