@@ -51,24 +51,23 @@ def box(shape, *ranges):
 
 
 class MaskTestCase(FolderTestCase):
-    def read_masks(self, paths, **properties):
-        """A reader that has executed without an error."""
+    def execute(self, paths, **properties):
         reader = voxplex.vtkSegmentationReader()
         for path in paths:
             reader.AddFileName(path)
         for name, value in properties.items():
             getattr(reader, "Set" + name)(value)
         reader.Update()
+        return reader
+
+    def read_masks(self, paths, **properties):
+        """A reader that has executed without an error."""
+        reader = self.execute(paths, **properties)
         self.assertEqual(reader.GetErrorMessage(), "")
         return reader
 
     def masks_refused(self, pattern, paths, **properties):
-        reader = voxplex.vtkSegmentationReader()
-        for path in paths:
-            reader.AddFileName(path)
-        for name, value in properties.items():
-            getattr(reader, "Set" + name)(value)
-        reader.Update()
+        reader = self.execute(paths, **properties)
         self.assertRegex(reader.GetErrorMessage(), pattern)
         self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
 

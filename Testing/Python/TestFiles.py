@@ -303,7 +303,7 @@ class Files(unittest.TestCase):
         for error, words in ((OSError(errno.ENOSPC, "No space left on device"), ours),
                              (OSError(errno.EDQUOT, "Disk quota exceeded"), ours),
                              (voxplex.FileError("cannot write the mesh: No space left on device"), ours),
-                             (voxplex.FileError("cannot write '/tmp/voxplex-ab12_xyz/interfaces.vtu': Disk quota exceeded"), ours),
+                             (voxplex.FileError("cannot write '/folder/voxplex-ab12_xyz/interfaces.vtu': Disk quota exceeded"), ours),
                              (voxplex.FileError("cannot write '/home/voxplex-1/mesh.vtu': No space left on device"), "^cannot write")):
             with self.subTest(error), unittest.mock.patch("voxplex.program.run", side_effect=error):
                 with self.assertRaisesRegex(voxplex.FileError, words):
