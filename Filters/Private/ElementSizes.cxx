@@ -4,12 +4,13 @@
 
 #include "Base/Error.h"
 #include "Base/NumberText.h"
-#include "Geometry/Box.h"
+#include "Sizing/Grading/PointBounds.h"
 
 #include "vtkDataArray.h"
 #include "vtkImplicitFunction.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -29,9 +30,7 @@ double AsBound(double size)
 /** Of all voxels, in the world. */
 Box<3> BoundsOf(const ImageFrame& frame)
 {
-  Box<3> bounds;
-  bounds.Min.fill(NoBound);
-  bounds.Max.fill(-NoBound);
+  std::array<Point<3>, 8> corners;
   for (unsigned corner = 0; corner < 8; ++corner)
   {
     Point<3> index;
@@ -40,14 +39,9 @@ Box<3> BoundsOf(const ImageFrame& frame)
       const bool high = (corner >> a) & 1u;
       index[a] = (high ? static_cast<double>(frame.Grid.Dimensions[a]) : 0.0) - 0.5;
     }
-    const Point<3> x = frame.ToWorld(frame.Grid.ToFrame(index));
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      bounds.Min[a] = std::min(bounds.Min[a], x[a]);
-      bounds.Max[a] = std::max(bounds.Max[a], x[a]);
-    }
+    corners[corner] = frame.ToWorld(frame.Grid.ToFrame(index));
   }
-  return bounds;
+  return voxplex::BoundsOf<3>(corners);
 }
 
 std::string Describe(const Box<3>& box)
