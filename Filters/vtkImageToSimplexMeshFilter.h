@@ -23,7 +23,7 @@
  * the reason. The executive adds a message of its own, and its Update() returns 0. Errors are:
  * - no or unsuitable scalars, fractional, negative or non-finite labels, no foreground, fewer than
  *   two voxels along an axis, labels that look like grey values (unless Force is on), more than
- *   65000 labels, spacing that is not positive and finite, a singular direction matrix. If there are
+ *   65000 labels of less than 8 voxels on average, spacing that is not positive and finite, a singular direction matrix. If there are
  *   labels of AddLabel(), only they count: all other whole numbers are background, negative ones
  *   included;
  * - parameters out of range, both Delta and NumberOfElements, a NumberOfElements that no Delta
@@ -459,7 +459,10 @@ public:
 
   ///@{
   /** Sets the image of element sizes (input port 1); null removes it. */
-  void SetElementSizeConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
+  void SetElementSizeConnection(vtkAlgorithmOutput* port)
+  {
+    this->SetInputConnection(1, port);
+  }
   void SetElementSizeData(vtkImageData* image);
   ///@}
 
@@ -516,10 +519,22 @@ public:
    */
   vtkSetClampMacro(ContentionManager, int, CONTENTION_AGGRESSIVE, CONTENTION_LOCAL);
   vtkGetMacro(ContentionManager, int);
-  void SetContentionManagerToAggressive() { this->SetContentionManager(CONTENTION_AGGRESSIVE); }
-  void SetContentionManagerToRandom() { this->SetContentionManager(CONTENTION_RANDOM); }
-  void SetContentionManagerToGlobal() { this->SetContentionManager(CONTENTION_GLOBAL); }
-  void SetContentionManagerToLocal() { this->SetContentionManager(CONTENTION_LOCAL); }
+  void SetContentionManagerToAggressive()
+  {
+    this->SetContentionManager(CONTENTION_AGGRESSIVE);
+  }
+  void SetContentionManagerToRandom()
+  {
+    this->SetContentionManager(CONTENTION_RANDOM);
+  }
+  void SetContentionManagerToGlobal()
+  {
+    this->SetContentionManager(CONTENTION_GLOBAL);
+  }
+  void SetContentionManagerToLocal()
+  {
+    this->SetContentionManager(CONTENTION_LOCAL);
+  }
   /** "aggressive", "random", "global" or "local". */
   const char* GetContentionManagerAsString() const;
   ///@}
@@ -544,7 +559,10 @@ public:
    */
   vtkSetClampMacro(LoadBalancer, int, RANDOM_WORK_STEALING, HIERARCHICAL_WORK_STEALING);
   vtkGetMacro(LoadBalancer, int);
-  void SetLoadBalancerToRandomWorkStealing() { this->SetLoadBalancer(RANDOM_WORK_STEALING); }
+  void SetLoadBalancerToRandomWorkStealing()
+  {
+    this->SetLoadBalancer(RANDOM_WORK_STEALING);
+  }
   void SetLoadBalancerToHierarchicalWorkStealing()
   {
     this->SetLoadBalancer(HIERARCHICAL_WORK_STEALING);
@@ -618,7 +636,10 @@ public:
   vtkMeshingStatistics* GetStatistics() const;
 
   /** Why the last execution failed; empty if it did not. */
-  const std::string& GetErrorMessage() const { return this->ErrorMessage; }
+  const std::string& GetErrorMessage() const
+  {
+    return this->ErrorMessage;
+  }
 
   ///@{
   /** How the mesh of the last execution differs from what was asked for, as it was reported. */
@@ -627,7 +648,10 @@ public:
   ///@}
 
   /** Whether the last execution was stopped by AbortExecute. */
-  bool GetAborted() const { return this->Aborted; }
+  bool GetAborted() const
+  {
+    return this->Aborted;
+  }
 
 #ifndef __VTK_WRAP__
   /**

@@ -3,6 +3,7 @@
 #include "Domain/LabelField.h"
 
 #include "Base/Error.h"
+#include "Base/VectorClones.h"
 #include "Domain/BuriedVoxels.h"
 #include "Image/LabelSmoothing.h"
 
@@ -29,6 +30,36 @@ namespace
 constexpr int ThinMargin = 16384;
 /** If a voxel's label wins by less, its interface may be missed: the voxel is weak. */
 constexpr int SolidMargin = 4916;
+
+using Eight = std::array<LabelId, 8>; // a vector register
+
+/** Finds which of eight voxels of a block lie between two voxels of other labels along an axis, if any does. */
+VOXPLEX_VECTOR_CLONES bool FindThin(const LabelId* in, std::size_t width, int axes, Eight& thin)
+{
+  const auto eightAt = [](const LabelId* at)
+  {
+    Eight eight;
+    std::memcpy(eight.data(), at, sizeof(eight));
+    return eight;
+  };
+  const Eight own = eightAt(in);
+  Eight found{};
+  std::size_t stride = 1;
+  for (int a = 0; a < axes; ++a, stride *= width)
+  {
+    const Eight before = eightAt(in - stride);
+    const Eight behind = eightAt(in + stride);
+    for (std::size_t i = 0; i < 8; ++i)
+    {
+      found[i] |= static_cast<LabelId>((before[i] != own[i]) & (behind[i] != own[i]));
+    }
+  }
+  thin = found;
+  std::array<std::uint64_t, 4> words;
+  static_assert(sizeof(words) == sizeof(found));
+  std::memcpy(words.data(), found.data(), sizeof(words));
+  return (words[0] | words[1] | words[2] | words[3]) != 0;
+}
 
 } // namespace
 
@@ -72,7 +103,7 @@ public:
   std::vector<WeakVoxel> Weak; ///< of all tiles made so far
 
 private:
-  static constexpr std::uint16_t NoSlot = 0xffff;
+  static constexpr std::uint32_t NoSlot = 0xffffffff;
 
   /** Copies the ids of the tile and of all voxels within reach of the smoothing kernel. */
   void GatherHalo(Index first)
@@ -105,11 +136,11 @@ private:
   /** A row is too short for memcpy() to pay. */
   void CopyRow(const LabelId* in, LabelId* out) const
   {
-    constexpr std::size_t four = sizeof(std::uint64_t) / sizeof(LabelId); // labels in a word
+    constexpr std::size_t four = 4; // labels in a vector register
     std::size_t x = 0;
     for (; x + four <= this->Width; x += four)
     {
-      std::memcpy(out + x, in + x, sizeof(std::uint64_t));
+      std::memcpy(out + x, in + x, four * sizeof(LabelId));
     }
     for (; x < this->Width; ++x)
     {
@@ -157,37 +188,26 @@ private:
   /** Whether all voxels of a row of the halo have the same label. */
   bool HasOneLabel(const LabelId* in) const
   {
-    constexpr std::size_t four = sizeof(std::uint64_t) / sizeof(LabelId); // labels in a word
-    const std::uint64_t wanted = in[0] * 0x0001000100010001u;
-    const auto differs = [in, wanted](std::size_t x)
+    const auto differences = [in](std::size_t width)
     {
-      std::uint64_t word;
-      std::memcpy(&word, in + x, sizeof(word));
-      return word ^ wanted;
-    };
-    std::uint64_t difference = 0;
-    if (this->Width == 4 * four) // by default
-    {
-      difference = differs(0) | differs(four) | differs(2 * four) | differs(3 * four);
-    }
-    else
-    {
-      for (std::size_t x = 0; x + four <= this->Width; x += four)
+      LabelId all = 0;
+      for (std::size_t x = 0; x < width; ++x)
       {
-        difference |= differs(x);
+        all |= in[x] ^ in[0];
       }
-      difference |= differs(this->Width - four); // the width is at least that of a tile
-    }
-    return difference == 0;
+      return all;
+    };
+    constexpr std::size_t usual = 16; // by default: the compiler knows how often
+    return (this->Width == usual ? differences(usual) : differences(this->Width)) == 0;
   }
 
   /** The rows of bits of a label. They are 0 at the first call for this label. */
   std::uint64_t* WordsOf(LabelId label)
   {
-    std::uint16_t slot = this->SlotOf[label];
+    std::uint32_t slot = this->SlotOf[label];
     if (slot == NoSlot)
     {
-      slot = static_cast<std::uint16_t>(this->Labels.size());
+      slot = static_cast<std::uint32_t>(this->Labels.size());
       this->SlotOf[label] = slot;
       this->Labels.push_back(label);
       if (this->Words.size() < this->Labels.size() * this->Rows)
@@ -216,11 +236,9 @@ private:
     const std::size_t planes = labels == 2 ? 1 : labels;
     const bool isBalanced = D == 4 && this->Radius > 0 && labels > 2;
     Sample* tile = this->Memory.Allocate(header + (planes + (isBalanced ? 2 : 0)) * PlaneSize);
-    tile[0] = static_cast<Sample>(labels);
-    for (std::size_t l = 0; l < labels; ++l)
-    {
-      tile[1 + l] = static_cast<Sample>(this->Labels[l]);
-    }
+    const auto count = static_cast<LabelId>(labels);
+    std::memcpy(tile, &count, sizeof(count));
+    std::memcpy(tile + SamplesPerLabel, this->Labels.data(), labels * sizeof(LabelId));
     for (std::size_t l = 0; l < planes; ++l)
     {
       this->SmoothLabel(this->Labels[l], tile + header + l * PlaneSize);
@@ -300,14 +318,14 @@ private:
   {
     for (std::size_t l = 0; l < this->Labels.size(); ++l)
     {
-      this->SlotOf[this->Labels[l]] = static_cast<std::uint16_t>(l);
+      this->SlotOf[this->Labels[l]] = static_cast<std::uint32_t>(l);
     }
     for (std::size_t row = 0; row < PlaneSize / 8; ++row)
     {
       const LabelId* in = this->HaloOf(row);
       for (std::size_t i = 0; i < 8; ++i)
       {
-        this->OwnSlots[row * 8 + i] = this->SlotOf[in[i]];
+        this->OwnSlots[row * 8 + i] = static_cast<std::uint16_t>(this->SlotOf[in[i]]);
       }
     }
   }
@@ -322,29 +340,9 @@ private:
     }
     for (std::size_t row = 0; row < PlaneSize / 8; ++row)
     {
-      using Eight = std::array<LabelId, 8>; // the compiler keeps it in a vector register
       const LabelId* in = this->HaloOf(row);
-      const auto eightAt = [](const LabelId* at)
-      {
-        Eight eight;
-        std::memcpy(eight.data(), at, sizeof(eight));
-        return eight;
-      };
-      const Eight own = eightAt(in);
-      Eight thin{};
-      std::size_t stride = 1;
-      for (int a = 0; a < D; ++a, stride *= this->Width)
-      {
-        const Eight before = eightAt(in - stride);
-        const Eight behind = eightAt(in + stride);
-        for (std::size_t i = 0; i < 8; ++i)
-        {
-          thin[i] |= static_cast<LabelId>((before[i] != own[i]) & (behind[i] != own[i]));
-        }
-      }
-      std::array<std::uint64_t, 2> words;
-      std::memcpy(words.data(), thin.data(), sizeof(words));
-      if ((words[0] | words[1]) == 0)
+      Eight thin;
+      if (!FindThin(in, this->Width, D, thin))
       {
         continue;
       }
@@ -451,7 +449,7 @@ private:
   std::size_t Rows;  ///< number of rows of the halo
   std::vector<LabelId> Halo;
   std::vector<LabelId> Labels; ///< labels that occur in the halo
-  std::vector<std::uint16_t> SlotOf;
+  std::vector<std::uint32_t> SlotOf;
   std::vector<std::uint64_t> Words;
   LabelSmoothing::Buffers Buffers;
   std::vector<std::uint16_t> OwnSlots;
@@ -500,10 +498,9 @@ void LabelField<D>::Raise(const Index& sample, LabelId label)
   this->ChangeSample(sample,
     [label](Sample* tile, std::size_t i)
     {
-      const auto labels = static_cast<std::size_t>(tile[0]);
+      const std::size_t labels = CountOf(tile);
       Sample* planes = tile + HeaderSize(labels);
-      const auto own = static_cast<std::size_t>(
-        std::find(tile + 1, tile + 1 + labels, static_cast<Sample>(label)) - (tile + 1));
+      const std::size_t own = FindLabel(tile, label);
       if (labels == 2)
       {
         constexpr Sample half = ThinMargin / 2;
@@ -531,12 +528,12 @@ bool LabelField<D>::ExtendedMarginGradientAt(
   {
     return false;
   }
-  const auto labels = static_cast<std::size_t>(cell.Tile[0]);
+  const std::size_t labels = CountOf(cell.Tile);
   const Sample* planes = cell.Tile + HeaderSize(labels);
   double scale = 1.0 / SampleOne;
   if (labels == 2)
   {
-    if (label != static_cast<LabelId>(cell.Tile[1]))
+    if (label != LabelOf(cell.Tile, 0))
     {
       scale = -scale;
     }
@@ -545,15 +542,14 @@ bool LabelField<D>::ExtendedMarginGradientAt(
     {
       g *= 2.0 * scale;
     }
-    return label == static_cast<LabelId>(cell.Tile[1]) ||
-      label == static_cast<LabelId>(cell.Tile[2]);
+    return label == LabelOf(cell.Tile, 0) || label == LabelOf(cell.Tile, 1);
   }
   std::size_t own = labels;
   std::size_t other = labels;
   float otherValue = -std::numeric_limits<float>::max();
   for (std::size_t l = 0; l < labels; ++l)
   {
-    if (static_cast<LabelId>(cell.Tile[1 + l]) == label)
+    if (LabelOf(cell.Tile, l) == label)
     {
       own = l;
       continue;

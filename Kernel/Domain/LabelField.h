@@ -49,7 +49,7 @@ namespace voxplex
  * image is periodic (LabelImage::IsPeriodicInTime()), the smoothing sees the frames of the other end instead, so both ends are equal.
  *
  * **Storage.** The tiles of a TiledLattice. Tiles outside of the crop are background. A mixed tile
- * has 16-bit fixed-point samples:
+ * has 16-bit fixed-point samples after a count and labels of 32 bits:
  *
  *     +---+----------+-----------------------------+
  *     | k | k labels | planes of 8^D samples       |
@@ -121,9 +121,35 @@ private:
   static constexpr double SampleOne = 16384.0; ///< fixed-point representation of 1
   /** The least margin of a voxel's own label, in units of samples; even. */
   static constexpr int KeptMargin = 328;
+  static constexpr std::size_t SamplesPerLabel = sizeof(LabelId) / sizeof(Sample);
 
   static float InterpolatePlane(const Sample* plane, const Cell& cell);
-  static std::size_t HeaderSize(std::size_t labels) { return (labels + 8) & ~std::size_t{ 7 }; }
+  ///@{
+  /** A tile begins with the number of its labels, and the labels, in increasing order, each as wide as a LabelId. */
+  static LabelId HeaderAt(const Sample* tile, std::size_t at)
+  {
+    LabelId entry;
+    std::memcpy(&entry, tile + at * SamplesPerLabel, sizeof(entry));
+    return entry;
+  }
+  static std::size_t CountOf(const Sample* tile) { return HeaderAt(tile, 0); }
+  static LabelId LabelOf(const Sample* tile, std::size_t l) { return HeaderAt(tile, 1 + l); }
+  /** Which of its labels this one is; their number if it is none of them. */
+  static std::size_t FindLabel(const Sample* tile, LabelId label)
+  {
+    const std::size_t labels = CountOf(tile);
+    std::size_t l = 0;
+    while (l < labels && LabelOf(tile, l) != label)
+    {
+      ++l;
+    }
+    return l;
+  }
+  static std::size_t HeaderSize(std::size_t labels)
+  {
+    return ((labels + 1) * SamplesPerLabel + 7) & ~std::size_t{ 7 };
+  }
+  ///@}
 
   void Raise(const Index& sample, LabelId label);
   void BalanceVolumes(
@@ -190,11 +216,11 @@ inline LabelId LabelField<D>::ExtendedLabelAt(const Point<D>& x) const
   {
     return cell.Uniform;
   }
-  const auto labels = static_cast<std::size_t>(cell.Tile[0]);
+  const std::size_t labels = CountOf(cell.Tile);
   const Sample* planes = cell.Tile + HeaderSize(labels);
   if (labels == 2)
   {
-    return static_cast<LabelId>(cell.Tile[InterpolatePlane(planes, cell) >= 0.0f ? 1 : 2]);
+    return LabelOf(cell.Tile, InterpolatePlane(planes, cell) >= 0.0f ? 0 : 1);
   }
   std::size_t best = 0;
   float bestValue = InterpolatePlane(planes, cell);
@@ -207,7 +233,7 @@ inline LabelId LabelField<D>::ExtendedLabelAt(const Point<D>& x) const
       bestValue = value;
     }
   }
-  return static_cast<LabelId>(cell.Tile[1 + best]);
+  return LabelOf(cell.Tile, best);
 }
 
 template <int D>
@@ -220,17 +246,17 @@ inline double LabelField<D>::ExtendedMarginAt(const Point<D>& x, LabelId label) 
   }
   // If values are equal, the smallest id wins: the winner's margin must be positive.
   constexpr double tie = std::numeric_limits<double>::min();
-  const auto labels = static_cast<std::size_t>(cell.Tile[0]);
+  const std::size_t labels = CountOf(cell.Tile);
   const Sample* planes = cell.Tile + HeaderSize(labels);
   if (labels == 2)
   {
     const double difference =
       (2.0 / SampleOne) * static_cast<double>(InterpolatePlane(planes, cell));
-    if (label == static_cast<LabelId>(cell.Tile[1]))
+    if (label == LabelOf(cell.Tile, 0))
     {
       return difference != 0.0 ? difference : tie;
     }
-    return label == static_cast<LabelId>(cell.Tile[2]) ? -difference : -2.0;
+    return label == LabelOf(cell.Tile, 1) ? -difference : -2.0;
   }
   float own = -static_cast<float>(SampleOne); // value of a label that the tile does not have
   float other = -std::numeric_limits<float>::max();
@@ -238,7 +264,7 @@ inline double LabelField<D>::ExtendedMarginAt(const Point<D>& x, LabelId label) 
   for (std::size_t l = 0; l < labels; ++l)
   {
     const float value = InterpolatePlane(planes + l * PlaneSize, cell);
-    const auto id = static_cast<LabelId>(cell.Tile[1 + l]);
+    const LabelId id = LabelOf(cell.Tile, l);
     if (id == label)
     {
       own = value;
@@ -261,7 +287,7 @@ std::array<double, N> LabelField<D>::ExtendedMarginsAt(
 {
   std::array<double, N> margins;
   const Cell cell = this->Locate(x);
-  if (!cell.Tile || cell.Tile[0] == 2)
+  if (!cell.Tile || CountOf(cell.Tile) == 2)
   {
     for (std::size_t k = 0; k < N; ++k)
     {
@@ -276,12 +302,12 @@ std::array<double, N> LabelField<D>::ExtendedMarginsAt(
   } best, next;
   std::array<float, N> own;
   own.fill(-static_cast<float>(SampleOne));
-  const auto count = static_cast<std::size_t>(cell.Tile[0]);
+  const std::size_t count = CountOf(cell.Tile);
   const Sample* planes = cell.Tile + HeaderSize(count);
   for (std::size_t l = 0; l < count; ++l)
   {
     const float value = InterpolatePlane(planes + l * PlaneSize, cell);
-    const auto id = static_cast<LabelId>(cell.Tile[1 + l]);
+    const LabelId id = LabelOf(cell.Tile, l);
     if (value > best.Value)
     {
       next = std::exchange(best, { value, id });

@@ -38,14 +38,14 @@ public:
   const Sample* RemakeTile(const Index& first, const Sample* tile)
   {
     this->FindBox(first);
-    const auto labels = static_cast<std::size_t>(tile[0]);
+    const std::size_t labels = CountOf(tile);
     const std::size_t planes = labels == 2 ? 1 : labels;
     const std::size_t size = HeaderSize(labels) + planes * PlaneSize;
     Sample* made = this->Memory.Allocate(size);
     std::copy_n(tile, size, made);
     for (std::size_t l = 0; l < planes; ++l)
     {
-      this->GatherMargins(static_cast<LabelId>(tile[1 + l]));
+      this->GatherMargins(LabelOf(tile, l));
       this->Balance.Find(this->Margins.data(), this->Buffers, this->Shifts.data());
       Sample* plane = made + HeaderSize(labels) + l * PlaneSize;
       for (std::size_t i = 0; i < PlaneSize; ++i)
@@ -107,9 +107,8 @@ private:
           std::fill_n(to, count, uniform == label ? 1.0f : -1.0f);
           return;
         }
-        const auto labels = static_cast<std::size_t>(tile[0]);
-        const auto own = static_cast<std::size_t>(
-          std::find(tile + 1, tile + 1 + labels, static_cast<Sample>(label)) - (tile + 1));
+        const std::size_t labels = CountOf(tile);
+        const std::size_t own = FindLabel(tile, label);
         if (own == labels)
         {
           std::fill_n(to, count, -1.0f);
@@ -159,7 +158,7 @@ private:
   /** Makes the label of each voxel centre win in `made` as it did in `tile`. */
   void KeepLabels(const Sample* tile, Sample* made)
   {
-    const auto labels = static_cast<std::size_t>(tile[0]);
+    const std::size_t labels = CountOf(tile);
     const Sample* const before = tile + HeaderSize(labels);
     if (labels == 2)
     {

@@ -470,10 +470,12 @@ bool TiledLattice<D, SampleType>::IsUniform(
       }
       if (high - low == TileSamples)
       {
-        const std::uint64_t wanted = label * 0x0001000100010001u;
-        std::uint64_t halves[2];
-        std::memcpy(halves, in, sizeof(halves));
-        uniform = ((halves[0] ^ wanted) | (halves[1] ^ wanted)) == 0;
+        LabelId difference = 0;
+        for (unsigned i = 0; i < TileSamples; ++i)
+        {
+          difference |= in[i] ^ label;
+        }
+        uniform = difference == 0;
         return uniform;
       }
       const auto [before, after] = RowEnds(image, in, low, high);
@@ -601,8 +603,8 @@ void TiledLattice<D, SampleType>::ForEachRun(
       Part& part = parts[a].emplace_back();
       if (sample >= 0)
       {
-        const std::uint32_t tile = std::min(
-          static_cast<std::uint32_t>(sample) / TileCells, this->LastCell[a] / TileCells);
+        const std::uint32_t tile =
+          std::min(static_cast<std::uint32_t>(sample) / TileCells, this->LastCell[a] / TileCells);
         part = { true, std::size_t{ tile } * this->TileStride[a],
           (static_cast<unsigned>(sample) - tile * TileCells) << (3 * a) };
       }
@@ -614,8 +616,7 @@ void TiledLattice<D, SampleType>::ForEachRun(
   for (std::size_t k = 1; k <= x.size(); ++k)
   {
     const bool goesOn = k < x.size() && x[k].Exists == x[k - 1].Exists &&
-      (!x[k].Exists ||
-        (x[k].Number == x[k - 1].Number && samples[0][k] == samples[0][k - 1] + 1));
+      (!x[k].Exists || (x[k].Number == x[k - 1].Number && samples[0][k] == samples[0][k - 1] + 1));
     if (!goesOn)
     {
       ends.push_back(k);

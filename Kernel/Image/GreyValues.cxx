@@ -3,6 +3,7 @@
 #include "Image/GreyValues.h"
 
 #include "Base/Error.h"
+#include "Base/VectorClones.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -16,27 +17,20 @@ namespace voxplex
 namespace
 {
 
-/**
- * Adds the pairs of two rows. Sums of parts fit in 16 bits, as wide as an id, so that the inner loop
- * is vectorised well.
- */
-void AddPairs(const LabelId* a, const LabelId* b, std::size_t length, NeighbourPairs& pairs)
+/** Adds the pairs of two rows. Sums are as wide as an id, so that the loop is vectorised well. */
+VOXPLEX_VECTOR_CLONES void AddPairs(
+  const LabelId* a, const LabelId* b, std::size_t length, NeighbourPairs& pairs)
 {
-  constexpr std::size_t AtOnce = 1u << 15;
-  for (std::size_t first = 0; first < length; first += AtOnce)
+  std::uint32_t all = 0;
+  std::uint32_t different = 0;
+  for (std::size_t i = 0; i < length; ++i)
   {
-    std::uint16_t all = 0;
-    std::uint16_t different = 0;
-    const std::size_t last = std::min(first + AtOnce, length);
-    for (std::size_t i = first; i < last; ++i)
-    {
-      const bool isPair = (a[i] != 0) & (b[i] != 0);
-      all = static_cast<std::uint16_t>(all + (isPair ? 1 : 0));
-      different = static_cast<std::uint16_t>(different + ((isPair & (a[i] != b[i])) ? 1 : 0));
-    }
-    pairs.All += all;
-    pairs.Different += different;
+    const bool isPair = (a[i] != 0) & (b[i] != 0);
+    all += isPair ? 1u : 0u;
+    different += (isPair & (a[i] != b[i])) ? 1u : 0u;
   }
+  pairs.All += all;
+  pairs.Different += different;
 }
 
 } // namespace

@@ -29,10 +29,8 @@ namespace
 template <typename T>
 inline constexpr bool IsSmall = std::is_integral_v<T> && sizeof(T) <= 2;
 
-/** Background, as many labels as there may be, and one more. */
-constexpr std::size_t MostSlots = std::size_t{ MaximumNumberOfLabels } + 2;
-static_assert(
-  MostSlots + 5 < std::numeric_limits<LabelId>::max()); // JunctionLattice has five more ids
+/** No slot is this. */
+constexpr LabelId NoSlot = std::numeric_limits<LabelId>::max();
 
 /** Of labels that were not asked for so many are noted for messages, at least. */
 constexpr std::size_t NotedOthers = 1000;
@@ -42,59 +40,63 @@ template <typename T>
 class SlotTable
 {
 public:
-  static constexpr std::uint16_t None = 0xffff;
-
   SlotTable()
-    : Slots(std::size_t{ 1 } << (8 * sizeof(T)), None)
+    : Slots(std::size_t{ 1 } << (8 * sizeof(T)), NoSlot)
   {
   }
-  std::uint16_t Find(T value) const { return this->Slots[Key(value)]; }
-  void Insert(T value, std::uint16_t slot) { this->Slots[Key(value)] = slot; }
+  LabelId Find(T value) const { return this->Slots[Key(value)]; }
+  void Insert(T value, LabelId slot) { this->Slots[Key(value)] = slot; }
 
 private:
   static std::size_t Key(T value) { return static_cast<std::make_unsigned_t<T>>(value); }
-  std::vector<std::uint16_t> Slots;
+  std::vector<LabelId> Slots;
 };
 
-/**
- * Slots of labels of large types: a hash table with open addressing. At most MostSlots labels are inserted.
- */
+/** Slots of labels of large types: a hash table with open addressing, which grows. */
 template <typename T>
 requires(!IsSmall<T>) class SlotTable<T>
 {
 public:
-  static constexpr std::uint16_t None = 0xffff;
-
-  SlotTable()
-    : Keys(Capacity, T(0))
-    , Slots(Capacity, None)
+  LabelId Find(T value) const { return this->Entries[this->Position(value)].Slot; }
+  /** The value must be new. */
+  void Insert(T value, LabelId slot)
   {
-  }
-  std::uint16_t Find(T value) const { return this->Slots[this->Position(value)]; }
-  void Insert(T value, std::uint16_t slot)
-  {
-    const std::size_t at = this->Position(value);
-    this->Keys[at] = value;
-    this->Slots[at] = slot;
+    if (2 * ++this->Count > this->Entries.size())
+    {
+      std::vector<Entry> old(2 * this->Entries.size());
+      old.swap(this->Entries);
+      --this->Shift;
+      for (const Entry& entry : old)
+      {
+        if (entry.Slot != NoSlot)
+        {
+          this->Entries[this->Position(entry.Value)] = entry;
+        }
+      }
+    }
+    this->Entries[this->Position(value)] = { value, slot };
   }
 
 private:
-  static constexpr unsigned Bits = 17;
-  static constexpr std::size_t Capacity = std::size_t{ 1 } << Bits;
-  static_assert(Capacity >= 2 * MostSlots);
+  struct Entry
+  {
+    T Value{};
+    LabelId Slot = NoSlot;
+  };
 
   std::size_t Position(T value) const
   {
     const auto key = static_cast<std::uint64_t>(value);
-    std::size_t at = (key * 0x9e3779b97f4a7c15u) >> (64 - Bits);
-    while (this->Slots[at] != None && this->Keys[at] != value)
+    std::size_t at = (key * 0x9e3779b97f4a7c15u) >> this->Shift;
+    while (this->Entries[at].Slot != NoSlot && this->Entries[at].Value != value)
     {
-      at = (at + 1) % Capacity;
+      at = (at + 1) % this->Entries.size();
     }
     return at;
   }
-  std::vector<T> Keys;
-  std::vector<std::uint16_t> Slots;
+  unsigned Shift = 54; ///< 64 - log2 of the number of entries
+  std::vector<Entry> Entries{ std::size_t{ 1 } << 10 };
+  std::size_t Count = 0;
 };
 
 /** The number of rows that a thread reads at once. */
@@ -166,10 +168,10 @@ template <typename T, int D>
   throw InputError(s.str());
 }
 
-[[noreturn]] void ThrowTooManyLabels()
+[[noreturn]] void ThrowTooManyLabels(std::size_t voxels)
 {
-  throw InputError("The image has more than " + std::to_string(MaximumNumberOfLabels) +
-    " distinct labels, which is more than a mesh can have; it is most likely a grey-value image. "
+  throw InputError("The image has more than " + std::to_string(MaximumNumberOfLabels(voxels)) +
+    " distinct labels, of less than 8 voxels on average; it is most likely a grey-value image. "
     "Segment it first, or mesh an isosurface of it with {isosurface}{array:, or choose the array "
     "that "
     "holds the segmentation}, or choose the labels to mesh with {labels}.");
@@ -256,6 +258,7 @@ public:
     , Grid(grid)
     , RowLength(static_cast<std::size_t>(grid.Dimensions[0]))
     , Labels(choice)
+    , MostSlots(MaximumNumberOfLabels(scalars.size()) + 2) // background, and one more
     , FirstBad(scalars.size())
   {
   }
@@ -296,7 +299,7 @@ public:
     }
     if (this->TooMany)
     {
-      ThrowTooManyLabels();
+      ThrowTooManyLabels(this->Scalars.size());
     }
     std::vector<Census<D>> censuses;
     for (const auto& census : all)
@@ -333,12 +336,12 @@ private:
         }
         return;
       }
-      const std::uint16_t slot = this->SlotOf(census, value);
-      if (slot != SlotTable<T>::None)
+      const LabelId slot = this->SlotOf(census, value);
+      if (slot != NoSlot)
       {
         census.Counts[slot] += static_cast<std::int64_t>(end - i);
       }
-      if (slot != SlotTable<T>::None && census.Kept[slot])
+      if (slot != NoSlot && census.Kept[slot])
       {
         index[0] = static_cast<std::int64_t>(i);
         for (std::size_t a = 0; a < D; ++a)
@@ -353,14 +356,14 @@ private:
   }
 
   /** None if the value is none of the labels that were asked for, or if there are too many. */
-  std::uint16_t SlotOf(TypedCensus& census, T value)
+  LabelId SlotOf(TypedCensus& census, T value)
   {
     if (!IsLabel(value))
     {
-      return SlotTable<T>::None;
+      return NoSlot;
     }
-    std::uint16_t slot = census.Slots.Find(value);
-    if (slot != SlotTable<T>::None)
+    LabelId slot = census.Slots.Find(value);
+    if (slot != NoSlot)
     {
       return slot;
     }
@@ -368,12 +371,12 @@ private:
     {
       return slot;
     }
-    if (census.Values.size() == MostSlots)
+    if (census.Values.size() == this->MostSlots)
     {
       this->TooMany.store(true, std::memory_order_relaxed);
       return slot;
     }
-    slot = static_cast<std::uint16_t>(census.Values.size());
+    slot = static_cast<LabelId>(census.Values.size());
     census.Slots.Insert(value, slot);
     census.Values.push_back(static_cast<std::int64_t>(value));
     census.Counts.push_back(0);
@@ -385,6 +388,7 @@ private:
   const GridGeometry<D>& Grid;
   const std::size_t RowLength;
   const Choice& Labels;
+  const std::size_t MostSlots;
   std::atomic<std::size_t> FirstBad; ///< the first voxel without a label, or the number of voxels
   std::atomic<bool> TooMany{ false };
 };
@@ -428,9 +432,9 @@ Census<D> Join(
       occurring.push_back(value);
     }
     const bool kept = choice.Keeps(value);
-    if (kept && labels.Values.size() > static_cast<std::size_t>(MaximumNumberOfLabels))
+    if (kept && labels.Values.size() > MaximumNumberOfLabels(numberOfVoxels))
     {
-      ThrowTooManyLabels();
+      ThrowTooManyLabels(numberOfVoxels);
     }
     if (kept)
     {
@@ -523,7 +527,7 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
   SlotTable<T> ids;
   for (std::size_t id = 1; id < labels.Values.size(); ++id)
   {
-    ids.Insert(static_cast<T>(labels.Values[id]), static_cast<std::uint16_t>(id));
+    ids.Insert(static_cast<T>(labels.Values[id]), static_cast<LabelId>(id));
   }
   const Index& min = labels.Min;
   const Index& max = labels.Max;
@@ -560,8 +564,8 @@ LabelImage<D> LabelImage<D>::FromScalars(std::span<const T> scalars, const GridG
         {
           const T value = in[i];
           const T label = NearestLabel(value);
-          const std::uint16_t slot = IsLabel(label) ? ids.Find(label) : SlotTable<T>::None;
-          const LabelId id = slot != SlotTable<T>::None ? slot : LabelId{ 0 };
+          const LabelId slot = IsLabel(label) ? ids.Find(label) : NoSlot;
+          const LabelId id = slot != NoSlot ? slot : LabelId{ 0 };
           do
           {
             out[i++] = id;

@@ -10,7 +10,9 @@
 #include "Base/UninitialisedVector.h"
 #include "Image/GridGeometry.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stop_token>
@@ -20,14 +22,22 @@ namespace voxplex
 {
 
 /** Dense label id: 0 is background, 1 ... n are the image's labels in increasing order of value. */
-using LabelId = std::uint16_t;
+using LabelId = std::uint32_t;
 
-/** No image has more labels than this: what ids of 16 bits can tell apart, in round figures. */
-inline constexpr int MaximumNumberOfLabels = 65000;
+/**
+ * As many labels as an image of so many voxels may have: regions have 8 voxels on average, at least, unless there are
+ * few labels. Fewer voxels have grey values (GreyValues.h).
+ */
+constexpr std::size_t MaximumNumberOfLabels(std::size_t voxels)
+{
+  constexpr std::size_t few = 65000;
+  constexpr std::size_t most = 0xfffffff0; // JunctionLattice has ids of its own
+  return std::clamp(voxels / 8, few, most);
+}
 
 /**
  * The labels to mesh; all by default. The other labels become background. If there are some to keep, so do whole
- * numbers that are no labels (negative ones, for example), and only what is kept counts against MaximumNumberOfLabels.
+ * numbers that are no labels (negative ones, for example), and only what is kept counts against MaximumNumberOfLabels().
  */
 struct LabelSelection
 {
@@ -65,7 +75,7 @@ public:
    * @throws Cancelled if a stop was requested before the end
    * @throws InputError if CheckGrid() fails; if a value is fractional, negative or not finite (the
    *   message has the value and its index); if there is no foreground; if there are more than
-   *   MaximumNumberOfLabels labels; if a selected or excluded label does not occur; if no label is
+   *   MaximumNumberOfLabels() labels; if a selected or excluded label does not occur; if no label is
    *   left
    */
   template <typename T>

@@ -3,6 +3,7 @@
 #include "Image/SurfaceVoxels.h"
 
 #include "Base/GridIndex.h"
+#include "Base/VectorClones.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -18,13 +19,23 @@ namespace voxplex
 namespace
 {
 
+/** Makes numbers differ from 0 where two rows differ. */
+VOXPLEX_VECTOR_CLONES void AddDifferences(
+  const LabelId* a, const LabelId* b, std::size_t length, LabelId* numbers)
+{
+  for (std::size_t i = 0; i < length; ++i)
+  {
+    numbers[i] |= a[i] ^ b[i];
+  }
+}
+
 /** A bit for each of 64 ids that is not 0. In most words none is set. */
-std::uint64_t WordOf(const LabelId* ids)
+VOXPLEX_VECTOR_CLONES std::uint64_t WordOf(const LabelId* ids)
 {
   LabelId any = 0;
   for (std::size_t i = 0; i < 64; ++i)
   {
-    any = static_cast<LabelId>(any | ids[i]);
+    any |= ids[i];
   }
   if (any == 0)
   {
@@ -94,25 +105,15 @@ BitMask<D> FindSurfaceVoxels(
         {
           Index neighbour = index;
           --neighbour[a];
-          const LabelId* low = rowAt(neighbour);
+          AddDifferences(own, rowAt(neighbour), n, inCrop);
           neighbour[a] += 2;
-          const LabelId* high = rowAt(neighbour);
-          for (std::size_t i = 0; i < n; ++i)
-          {
-            inCrop[i] = static_cast<LabelId>(inCrop[i] | (own[i] ^ low[i]) | (own[i] ^ high[i]));
-          }
+          AddDifferences(own, rowAt(neighbour), n, inCrop);
         }
-        for (std::size_t i = 0; i + 1 < n; ++i)
-        {
-          inCrop[i] = static_cast<LabelId>(inCrop[i] | (own[i] ^ own[i + 1]));
-        }
-        for (std::size_t i = 1; i < n; ++i)
-        {
-          inCrop[i] = static_cast<LabelId>(inCrop[i] | (own[i] ^ own[i - 1]));
-        }
+        AddDifferences(own, own + 1, n - 1, inCrop);
+        AddDifferences(own + 1, own, n - 1, inCrop + 1);
         // Along x, the voxels beyond the crop's two ends are background. They may be sites, too.
-        inCrop[0] = static_cast<LabelId>(inCrop[0] | own[0]);
-        inCrop[n - 1] = static_cast<LabelId>(inCrop[n - 1] | own[n - 1]);
+        inCrop[0] |= own[0];
+        inCrop[n - 1] |= own[n - 1];
         differs[0] = own[0];
         differs[n + 1] = own[n - 1];
         const std::span<std::uint64_t> words = sites.Row(row);

@@ -6,6 +6,7 @@
 #include "Base/GridIndex.h"
 #include "Base/NumberText.h"
 #include "Base/PageMemory.h"
+#include "Base/VectorClones.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -51,19 +52,13 @@ struct Calibration<4>
 };
 
 /** The number of places where two rows of ids differ. */
-std::uint64_t CountDifferent(const LabelId* a, const LabelId* b, std::size_t length)
+VOXPLEX_VECTOR_CLONES std::uint64_t CountDifferent(
+  const LabelId* a, const LabelId* b, std::size_t length)
 {
-  constexpr std::size_t AtOnce = 1u << 15; // the sum is as wide as an id, so the loop is vectorised
-  std::uint64_t sum = 0;
-  for (std::size_t first = 0; first < length; first += AtOnce)
+  std::uint32_t sum = 0; // as wide as an id, so the loop is vectorised
+  for (std::size_t i = 0; i < length; ++i)
   {
-    std::uint16_t part = 0;
-    const std::size_t last = std::min(first + AtOnce, length);
-    for (std::size_t i = first; i < last; ++i)
-    {
-      part = static_cast<std::uint16_t>(part + (a[i] != b[i] ? 1 : 0));
-    }
-    sum += part;
+    sum += a[i] != b[i] ? 1u : 0u;
   }
   return sum;
 }

@@ -157,7 +157,7 @@ void InterfaceSizes<D>::Summarise(
   const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
 {
   using Faces = std::array<std::uint64_t, static_cast<std::size_t>(D)>; // by axis
-  std::map<std::uint32_t, Faces> all;
+  std::map<std::uint64_t, Faces> all;
   std::mutex mutex; // guards `all`
   const auto& n = image.CropDimensions();
   const std::size_t row = static_cast<std::size_t>(n[0]);
@@ -165,7 +165,7 @@ void InterfaceSizes<D>::Summarise(
     0, image.Ids().size() / row, 256, threads,
     [&](std::size_t first, std::size_t last)
     {
-      std::unordered_map<std::uint32_t, Faces> found;
+      std::unordered_map<std::uint64_t, Faces> found;
       for (std::size_t r = first; r < last; ++r)
       {
         typename GridGeometry<D>::Index voxel = IndexAt(r * row, n);
@@ -202,8 +202,8 @@ void InterfaceSizes<D>::Summarise(
   double vertices = 0.0; // an estimate
   for (const auto& [pair, faces] : all)
   {
-    const auto a = static_cast<LabelId>(pair >> 16);
-    const auto b = static_cast<LabelId>(pair & 0xffffu);
+    const auto a = static_cast<LabelId>(pair >> 32);
+    const auto b = static_cast<LabelId>(pair & 0xffffffffu);
     const double given = this->Given(a, b);
     const bool isGiven = std::isfinite(given);
     const double largest = isGiven ? given : this->Base.Delta;

@@ -105,9 +105,9 @@ public:
   double LargestOf(LabelId label) const { return this->LargestOfLabel[label]; }
 
 private:
-  static std::uint32_t Key(LabelId a, LabelId b)
+  static std::uint64_t Key(LabelId a, LabelId b)
   {
-    return std::uint32_t(std::max(a, b)) << 16 | std::min(a, b);
+    return std::uint64_t(std::max(a, b)) << 32 | std::min(a, b);
   }
 
   /** The distance that is given for an interface; infinite if none is. */
@@ -120,7 +120,7 @@ private:
   void Take(const LabelImage<D>& image, const std::vector<InterfaceSize>& sizes);
   void Summarise(const LabelImage<D>& image, unsigned threads, const std::stop_token& stop);
 
-  std::unordered_map<std::uint32_t, double> OfPair;
+  std::unordered_map<std::uint64_t, double> OfPair;
   std::vector<double> OfLabel; ///< by dense id; infinite: not given
   BaseDistance<D> Base;
   bool IsGraded;

@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ namespace
 {
 
 using Color = std::array<double, 3>;
+
+/** VTK looks for a cell's category among all of them, one after the other: with more, drawing takes minutes. */
+constexpr std::size_t MostCategories = 1000;
 
 /** Two strings a category, and its colour. */
 class Categories
@@ -108,6 +112,7 @@ void vtkSMLabelColorsProxy::Apply(vtkPVLabelInformation* labels, vtkSMSessionPro
   {
     return;
   }
+  const bool hasCategories = labels->GetLabels().size() <= MostCategories;
   vtkNew<vtkSMTransferFunctionManager> maps;
   for (const std::string array : { "Label", "Labels" })
   {
@@ -123,10 +128,10 @@ void vtkSMLabelColorsProxy::Apply(vtkPVLabelInformation* labels, vtkSMSessionPro
     {
       categories.Add(value, label.Name, ColorOf(value, label));
     }
-    categories.SetTo(map);
+    (hasCategories ? categories : Categories()).SetTo(map);
     // Otherwise ParaView's colour map editor looks for the array's values and asks the user what it did.
     vtkSMPropertyHelper(map, "AnnotationsInitialized").Set(1);
-    vtkSMPropertyHelper(map, "IndexedLookup").Set(1);
+    vtkSMPropertyHelper(map, "IndexedLookup").Set(hasCategories ? 1 : 0);
     map->UpdateVTKObjects();
   }
 }

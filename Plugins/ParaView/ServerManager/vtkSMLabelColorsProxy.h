@@ -8,7 +8,8 @@
  * `Label` and `Labels` show categories, each label's name is its annotation (its value if it has no name)
  * and its colour that category's colour; labels without a colour get one that their value decides on, so that it is the same in
  * every mesh. Colour maps belong to the names of arrays in ParaView, so this holds for all that is made from the source as well.
- * `Labels` (two components: both sides of an interface) is coloured by its first.
+ * `Labels` (two components: both sides of an interface) is coloured by its first. With more than 1000 labels the colour maps
+ * are continuous.
  *
  * The proxy has no object on the server. Labels come from vtkPVLabelInformation.
  */

@@ -196,6 +196,20 @@ TEST(LabelField, EveryVoxelCentreKeepsItsLabel)
   }
 }
 
+TEST(LabelField, TellsAnyNumberOfLabelsApart)
+{
+  const LabelImage<3> image = phantoms::Blocks(2, 42);
+  ASSERT_GT(image.NumberOfLabels(), 65536);
+  const LabelField<3> field(image, 0.0, 2);
+  ForEachVoxel<3>(image,
+    [&](const Point<3>& p, LabelId id)
+    {
+      ASSERT_EQ(field.Label(p), id);
+      ASSERT_GT(field.Margin(p, id), 0.0);
+      ASSERT_LT(field.Margin(p, id ^ 0x10000), 0.0);
+    });
+}
+
 TEST(LabelField, WithoutSmoothingIsTheArgMaxOfInterpolatedIndicators)
 {
   std::mt19937 random(3);

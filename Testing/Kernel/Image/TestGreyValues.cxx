@@ -39,18 +39,6 @@ LabelImage<D> Noise(const typename GridGeometry<D>::Index& dimensions, int label
     scalars, GridGeometry<D>::Orthogonal(dimensions, spacing));
 }
 
-/** Cubes with sides of `side` voxels, each with a label of its own. */
-LabelImage<3> Blocks(std::int64_t side, std::int64_t along)
-{
-  return phantoms::Make(phantoms::Cube(side * along),
-    [=](const Point<3>& p) -> std::int16_t
-    {
-      const auto block = [=](double x) { return static_cast<std::int64_t>(x) / side; };
-      return static_cast<std::int16_t>(
-        1 + (block(p[2]) * along + block(p[1])) * along + block(p[0]));
-    });
-}
-
 /** Voronoi cells of points, one at random in each of along^3 boxes. */
 LabelImage<3> Grains(std::int64_t along, std::int64_t side)
 {
@@ -149,8 +137,10 @@ TEST(GreyValues, AreRefused)
 
 TEST(GreyValues, AreRefusedInSmallImagesOfVeryManyLabels)
 {
-  EXPECT_THROW(CheckSegmented(Blocks(1, 16)), InputError); // 4096 labels in as many voxels
-  EXPECT_NO_THROW(CheckSegmented(Blocks(1, 12)));          // 1728
+  EXPECT_THROW(
+    CheckSegmented(phantoms::Blocks(1, 16)), InputError);   // 4096 labels in as many voxels
+  EXPECT_NO_THROW(CheckSegmented(phantoms::Blocks(1, 12))); // 1728
+  EXPECT_THROW(phantoms::Blocks(1, 41), InputError);        // 68,921
 }
 
 /** A polycrystal: the number of labels alone says nothing. */
@@ -160,7 +150,8 @@ TEST(GreyValues, ThousandsOfGrainsAreNot)
   EXPECT_GT(image.NumberOfLabels(), 3000);
   EXPECT_NO_THROW(CheckSegmented(image));
   EXPECT_LT(CountNeighbourPairs(image).ShareOfDifferent(), 0.45);
-  EXPECT_NO_THROW(CheckSegmented(Blocks(2, 16)));
+  EXPECT_NO_THROW(CheckSegmented(phantoms::Blocks(2, 16)));
+  EXPECT_NO_THROW(CheckSegmented(phantoms::Blocks(2, 42))); // 74,088
 }
 
 TEST(GreyValues, SegmentationsAreNot)
@@ -168,8 +159,8 @@ TEST(GreyValues, SegmentationsAreNot)
   EXPECT_NO_THROW(CheckSegmented(Noise<3>({ 60, 60, 60 }, 30)));   // noise, but few labels
   EXPECT_NO_THROW(CheckSegmented(Noise<3>({ 24, 24, 24 }, 1000))); // small
   EXPECT_NO_THROW(CheckSegmented(Noise<4>({ 10, 10, 10, 10 }, 100)));
-  EXPECT_NO_THROW(CheckSegmented(Blocks(2, 12)));
-  EXPECT_NO_THROW(CheckSegmented(Blocks(4, 8)));
+  EXPECT_NO_THROW(CheckSegmented(phantoms::Blocks(2, 12)));
+  EXPECT_NO_THROW(CheckSegmented(phantoms::Blocks(4, 8)));
   EXPECT_NO_THROW(CheckSegmented(Wave(30.0)));
   EXPECT_NO_THROW(CheckSegmented(phantoms::CutCells(3, 400, 400, 1)));
   // As a checkerboard all neighbours differ, but there are two labels.

@@ -286,9 +286,35 @@ TEST(LabelImage, RejectsImagesWithoutForeground)
     { "no foreground", "24 voxels" });
 }
 
-TEST(LabelImage, HasAsManyLabelsAsIdsTellApart)
+TEST(LabelImage, HasAnyNumberOfRegions)
+{
+  constexpr std::int64_t n = 90;
+  constexpr std::size_t labels = n * n * n / 8;
+  static_assert(labels > 65536 && MaximumNumberOfLabels(n * n * n) == labels);
+  std::vector<std::int64_t> values(n * n * n);
+  const auto fill = [&](std::size_t number)
+  {
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      values[i] = static_cast<std::int64_t>(i % number) * 1000003 + 1;
+    }
+  };
+  fill(labels);
+  const LabelImage<3> image = Read<std::int64_t>(values, Grid(n, n, n), {}, 3);
+  ASSERT_EQ(image.NumberOfLabels(), labels);
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    ASSERT_EQ(image.Ids()[i], 1 + i % labels);
+    ASSERT_EQ(image.Values()[image.Ids()[i]], values[i]);
+  }
+  fill(labels + 1);
+  ExpectInputError([&] { Read<std::int64_t>(values, Grid(n, n, n)); }, { "91125", "8 voxels" });
+}
+
+TEST(LabelImage, RefusesMoreLabelsThanRegions)
 {
   constexpr std::int64_t n = 41; // more voxels than labels
+  constexpr int most = static_cast<int>(MaximumNumberOfLabels(n * n * n));
   std::vector<unsigned short> scalars(n * n * n);
   const auto fill = [&](int labels)
   {
@@ -297,13 +323,13 @@ TEST(LabelImage, HasAsManyLabelsAsIdsTellApart)
       scalars[i] = static_cast<unsigned short>(i % (static_cast<std::size_t>(labels) + 1));
     }
   };
-  fill(MaximumNumberOfLabels);
+  fill(most);
   const LabelImage<3> all = Read<unsigned short>(scalars, Grid(n, n, n));
-  EXPECT_EQ(all.NumberOfLabels(), MaximumNumberOfLabels);
+  EXPECT_EQ(all.NumberOfLabels(), most);
   EXPECT_TRUE(std::ranges::equal(all.Ids(), scalars));
   const std::vector<double> doubles(scalars.begin(), scalars.end());
-  EXPECT_EQ(Read<double>(doubles, Grid(n, n, n)).NumberOfLabels(), MaximumNumberOfLabels);
-  fill(MaximumNumberOfLabels + 1);
+  EXPECT_EQ(Read<double>(doubles, Grid(n, n, n)).NumberOfLabels(), most);
+  fill(most + 1);
   ExpectInputError([&] { Read<unsigned short>(scalars, Grid(n, n, n)); },
     { "65000", "grey-value image", "Segment it", "choose the labels" });
   const std::vector<int> ints(scalars.begin(), scalars.end());

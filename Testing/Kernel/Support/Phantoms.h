@@ -46,6 +46,20 @@ inline GridGeometry<3> Cube(std::int64_t n, double spacing = 1.0)
   return GridGeometry<3>::Orthogonal({ n, n, n }, { spacing, spacing, spacing });
 }
 
+/** Cubes with sides of `side` voxels, each with a label of its own. */
+inline LabelImage<3> Blocks(std::int64_t side, std::int64_t along)
+{
+  const GridGeometry<3> grid = Cube(side * along);
+  const std::vector<std::int32_t> labels = Sample<std::int32_t>(grid,
+    [=](const Point<3>& p)
+    {
+      const auto block = [=](double x) { return static_cast<std::int64_t>(x) / side; };
+      return static_cast<std::int32_t>(
+        1 + (block(p[2]) * along + block(p[1])) * along + block(p[0]));
+    });
+  return LabelImage<3>::FromScalars<std::int32_t>(labels, grid);
+}
+
 /** Its axes meet at angles that are the more acute the larger `shear` is, in all three pairs of them. */
 inline GridGeometry<3> Sheared(const GridGeometry<3>::Index& dimensions, double shear)
 {

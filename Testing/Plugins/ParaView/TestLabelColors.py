@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Names and colours of labels become annotations and categorical colours of ParaView's colour maps."""
+import struct
+
 from voxplex_testing import *
 
 from paraview.simple import GetColorTransferFunction, SaveData, Sphere, XMLImageDataReader, XMLUnstructuredGridReader
@@ -15,6 +17,18 @@ def check_maps(what):
     sides = GetColorTransferFunction("Labels")
     check_equal(pairs(sides.Annotations), {"0": "background", "3": NAME, "7": "7"}, what)
     check_equal((sides.VectorMode, sides.VectorComponent), ("Component", 0), what)
+
+
+def write_cells(labels):
+    """A row of voxels with a label each, as a MetaImage with a table of names."""
+    path = output_path("cells-%d.mha" % labels)
+    with open(path, "wb") as file:
+        file.write(b"ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+                   b"DimSize = %d 2 2\nElementType = MET_USHORT\nElementDataFile = LOCAL\n" % labels)
+        file.write(4 * struct.pack("<%dH" % labels, *range(1, labels + 1)))
+    with open(path[:-4] + ".txt", "w") as file:
+        file.writelines("%d Cell %d\n" % (label, label) for label in range(1, labels + 1))
+    return path
 
 
 def reset_maps():
@@ -65,6 +79,17 @@ def main():
     voxplex_paraview.apply_label_colors(atlas)
     names = pairs(GetColorTransferFunction("Label").Annotations)
     check_equal((len(names), names.get("1"), names.get("116")), (116, "Precentral_L", "Vermis_10"), "the atlas")
+    reset_maps()
+    voxplex_paraview.apply_label_colors(mesher)
+
+    # VTK draws slowly with many categories.
+    for labels in (1000, 1001):
+        reader = SegmentationReaderVoxplex(FileName=write_cells(labels))
+        voxplex_paraview.apply_label_colors(reader)
+        for array in ("Label", "Labels"):
+            colors = GetColorTransferFunction(array)
+            check_equal(bool(colors.InterpretValuesAsCategories), labels == 1000, "%d labels" % labels)
+            check_equal(pairs(colors.Annotations).get("77"), "Cell 77" if labels == 1000 else None)
     reset_maps()
     voxplex_paraview.apply_label_colors(mesher)
 
