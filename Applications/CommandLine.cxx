@@ -58,6 +58,10 @@ constexpr const char* Examples = R"(Examples:
   A beating heart as one mesh of space and time, and what it looks like at 30 times, for ParaView:
     voxplex --input beating.nrrd --delta 5 --output heart.vtu --slices heart_ --slice-count 30
 
+  What is suspicious in a segmentation, and a repaired one, without a mesh:
+    voxplex --input knee.nrrd --check-image
+    voxplex --input knee.nrrd --fill-holes 50 --min-thickness Meniscus=2 --save-image knee2.nrrd
+
   A DICOM series, in the RAS coordinates of 3D Slicer's scene, with a progress bar:
     voxplex --input dicom-folder --space ras --progress --output ct.vtu
 )";
@@ -91,12 +95,16 @@ po::options_description DescribeFiles()
   options.add_options() //
     ("input", po::value<std::vector<std::string>>()->multitoken()->composing()->value_name("FILE"),
       "the label image, of three or four dimensions: NRRD, NIfTI, MetaImage, "
-      "DICOM, TIFF, VTK, GIPL, MRC, or a folder that holds a DICOM series; 0 is background; or a "
+      "DICOM, TIFF, VTK, MGH, GIPL, MRC, or a folder that holds a DICOM series; 0 is background; "
+      "or a "
       "grey-value image (--isovalue). Several files, or a folder of them, are masks, which become "
       "labels 1, 2, ... with the names of their files") //
     ("overlap", Text("smallest|order"),
       "which of the masks that have a voxel gets it: the smallest (the default; of equals the "
-      "first), or the first. Also of segments of a .seg.nrrd file") //
+      "first), or the first. Also of segments of a .seg.nrrd file, and of DICOM segmentations") //
+    ("mask-threshold", Text("NUMBER"),
+      "above which probabilities, from 0 to 1, are inside: of masks, and of DICOM segmentations "
+      "(default 0.5)") //
     ("resample-masks",
       "resample masks on different grids to that with the smallest voxels, by nearest neighbour") //
     ("mesh", Text("FILE"),
@@ -404,6 +412,11 @@ void TakeReading(const po::variables_map& values, ReadingOptions& reading)
       return ParseWord(option, text, { "smallest", "order" });
     },
     reading.Overlap);
+  Take(
+    values, "mask-threshold",
+    [](const std::string& option, const std::string& text)
+    { return ParseReal(option, text, { .Low = 0.0, .High = 1.0 }); },
+    reading.MaskThreshold);
   reading.ResampleMasks = values.count("resample-masks") > 0;
   Take(values, "label-table", ParseName, reading.LabelTable);
   Take(values, "frame-times", ParseFrameTimes, reading.FrameTimes);
@@ -424,6 +437,14 @@ void TakeLists(const po::variables_map& values, Parameters& p)
   for (const std::string& text : AllGiven(values, "label-size"))
   {
     p.LabelSizeTexts.push_back(ParseLabelSize("label-size", text));
+  }
+  for (const std::string& text : AllGiven(values, "min-thickness"))
+  {
+    p.ThicknessTexts.push_back(ParseLabelSize("min-thickness", text));
+  }
+  for (const std::string& text : AllGiven(values, "shell"))
+  {
+    p.ShellTexts.push_back(ParseLabelSize("shell", text, true));
   }
   p.LabelTexts = AllGiven(values, "labels");
   for (const std::string& text : p.LabelTexts)
@@ -452,14 +473,15 @@ void CheckOptionsOfMesh(const po::variables_map& values)
   refuse("time-planes", making);
   for (const MeshingParameter& parameter : MeshingParameters())
   {
-    if (!measuring.count(parameter.Name))
+    if (!measuring.count(parameter.Name) && !parameter.IsOfRepair())
     {
       refuse(NameIn(UserInterface::CommandLine, parameter), making);
     }
   }
   for (const char* const option :
-    { "series", "overlap", "resample-masks", "spacing", "origin", "direction", "space", "labels",
-      "label-table", "data-files-anywhere", "smoothing", "smallest-component", "hausdorff" })
+    { "series", "overlap", "mask-threshold", "resample-masks", "spacing", "origin", "direction",
+      "space", "labels", "label-table", "data-files-anywhere", "smoothing", "smallest-component",
+      "hausdorff", "fill-holes", "remove-spikes", "min-thickness", "shell", "check-image" })
   {
     if (!values.count("input"))
     {

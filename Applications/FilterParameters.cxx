@@ -9,6 +9,7 @@
 #include <vtkImageToTetMeshFilter.h>
 #include <vtkNew.h>
 #include <vtkSegmentationReader.h>
+#include <vtkSegmentationRepair.h>
 
 namespace voxplex::cli
 {
@@ -18,12 +19,13 @@ namespace
 using Filter = vtkImageToSimplexMeshFilter;
 using Tets = vtkImageToTetMeshFilter;
 using Pentatopes = vtkImageToPentatopeMeshFilter;
-using Setter = std::function<void(Filter*, double)>;
+using Repair = vtkSegmentationRepair;
+using Setter = std::function<void(vtkAlgorithm*, double)>;
 
 template <class F, class T>
 Setter To(void (F::*set)(T))
 {
-  return [set](Filter* filter, double value)
+  return [set](vtkAlgorithm* filter, double value)
   { (static_cast<F*>(filter)->*set)(static_cast<T>(value)); };
 }
 
@@ -51,8 +53,37 @@ void SetParameters(vtkImageToSimplexMeshFilter* filter, const ParameterValues& v
 {
   for (const auto& [name, value] : values)
   {
-    Setters().at(name)(filter, value);
+    if (!FindParameter(name).IsOfRepair())
+    {
+      Setters().at(name)(filter, value);
+    }
   }
+}
+
+vtkSmartPointer<vtkSegmentationRepair> MakeRepair(
+  const ParameterValues& values, const LabelSelection& selection, UserInterface words)
+{
+  bool isAsked = !selection.Thicknesses.empty() || !selection.Shells.empty();
+  auto repair = vtkSmartPointer<Repair>::New();
+  for (const auto& [name, value] : values)
+  {
+    if (FindParameter(name).IsOfRepair())
+    {
+      Setters().at(name)(repair, value);
+      isAsked = isAsked || value != 0.0;
+    }
+  }
+  for (const auto& [label, length] : selection.Thicknesses)
+  {
+    repair->SetMinimumThickness(label, length);
+  }
+  for (const auto& [label, thickness] : selection.Shells)
+  {
+    repair->SetShell(label, thickness);
+  }
+  repair->SetNumberOfThreads(static_cast<int>(values.at("threads")));
+  repair->SetVocabulary(static_cast<int>(words)); // the filter has the same numbers
+  return isAsked ? repair : nullptr;
 }
 
 void SetLabels(vtkImageToSimplexMeshFilter* filter, const LabelSelection& selection)

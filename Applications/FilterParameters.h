@@ -7,6 +7,8 @@
 #include "LabelSelection.h"
 #include "MeshingParameters.h"
 
+#include <vtkSmartPointer.h>
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -14,9 +16,14 @@
 class vtkAlgorithm;
 class vtkImageToSimplexMeshFilter;
 class vtkSegmentationReader;
+class vtkSegmentationRepair;
 
 namespace voxplex::cli
 {
+
+/** What the values and the selection say of the image before it is meshed; null if they say nothing. */
+vtkSmartPointer<vtkSegmentationRepair> MakeRepair(
+  const ParameterValues& values, const LabelSelection& selection, UserInterface words);
 
 /** Sets what the values say, which are for images of the filter's dimension. */
 void SetParameters(vtkImageToSimplexMeshFilter* filter, const ParameterValues& values);

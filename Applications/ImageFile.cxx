@@ -95,9 +95,8 @@ void PutLabels(std::ostream& header, const io::LabelTable& table)
   }
 }
 
-std::string Header(vtkSegmentationReader* reader)
+std::string Header(vtkSegmentationReader* reader, vtkImageData* image)
 {
-  vtkImageData* const image = reader->GetOutput();
   const int frames = reader->GetNumberOfFrames();
   const bool isSeries = frames > 1;
   const int* const size = image->GetDimensions();
@@ -132,16 +131,18 @@ std::string Header(vtkSegmentationReader* reader)
 
 } // namespace
 
-void WriteImage(vtkSegmentationReader* reader, const std::string& path)
+void WriteImage(vtkSegmentationReader* reader, vtkAlgorithm* source, const std::string& path)
 {
   errno = 0;
   std::ofstream file(path, std::ios::binary);
-  file << Header(reader);
+  auto* const image = vtkImageData::SafeDownCast(source->GetOutputDataObject(0));
+  file << Header(reader, image);
+  const int type = image->GetScalarType();
   for (int frame = 0; file && frame < reader->GetNumberOfFrames(); ++frame)
   {
-    reader->UpdateTimeStep(reader->GetTimeOfFrame(frame));
-    vtkDataArray* const voxels = reader->GetOutput()->GetPointData()->GetScalars();
-    if (!voxels)
+    source->UpdateTimeStep(reader->GetTimeOfFrame(frame));
+    vtkDataArray* const voxels = image->GetPointData()->GetScalars();
+    if (!voxels || voxels->GetDataType() != type)
     {
       throw RunError(
         "cannot read frame " + std::to_string(frame) + ": " + reader->GetErrorMessage());

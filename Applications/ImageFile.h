@@ -9,18 +9,19 @@
 
 #include <string>
 
+class vtkAlgorithm;
 class vtkSegmentationReader;
 
 namespace voxplex::cli
 {
 
 /**
- * Writes all frames as NRRD: raw voxels, their place, the times of frames, and the names and colours of labels as 3D
+ * Writes all frames of a reader, or of what repairs them (`source`), as NRRD: raw voxels, their place, the times of frames, and the names and colours of labels as 3D
  * Slicer's .seg.nrrd has them.
  *
  * @throws RunError
  */
-void WriteImage(vtkSegmentationReader* reader, const std::string& path);
+void WriteImage(vtkSegmentationReader* reader, vtkAlgorithm* source, const std::string& path);
 
 } // namespace voxplex::cli
 

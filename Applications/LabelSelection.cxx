@@ -114,6 +114,21 @@ std::int64_t ToLabel(
     begin + "several labels are called " + Quoted(text) + ": " + list + "; give numbers");
 }
 
+std::map<std::int64_t, double> ToSizes(
+  const std::string& option, const std::vector<LabelSizeText>& texts, const io::LabelTable& table)
+{
+  std::map<std::int64_t, double> sizes;
+  for (const LabelSizeText& size : texts)
+  {
+    const std::int64_t label = ToLabel(option, size.Label, table);
+    if (!sizes.emplace(label, size.Size).second)
+    {
+      throw UsageError("--" + option + ": label " + std::to_string(label) + " is given twice");
+    }
+  }
+  return sizes;
+}
+
 /** The one or two labels of --interface-size: a name that has commas, or what commas separate. */
 std::vector<std::string> LabelsOfInterface(const std::string& text, const io::LabelTable& table)
 {
@@ -166,9 +181,13 @@ bool HasNames(const Parameters& p)
     const std::vector<std::string> labels = SplitAtCommas(text);
     return std::any_of(labels.begin(), labels.end(), isName);
   };
+  const auto hasNamed = [&isName](const std::vector<LabelSizeText>& sizes)
+  {
+    return std::any_of(sizes.begin(), sizes.end(),
+      [&isName](const LabelSizeText& size) { return isName(size.Label); });
+  };
   return std::any_of(p.LabelTexts.begin(), p.LabelTexts.end(), hasName) ||
-    std::any_of(p.LabelSizeTexts.begin(), p.LabelSizeTexts.end(),
-      [&isName](const LabelSizeText& size) { return isName(size.Label); }) ||
+    hasNamed(p.LabelSizeTexts) || hasNamed(p.ThicknessTexts) || hasNamed(p.ShellTexts) ||
     std::any_of(p.InterfaceSizeTexts.begin(), p.InterfaceSizeTexts.end(),
       [](const InterfaceSizeText& size)
       {
@@ -194,13 +213,9 @@ LabelSelection SelectLabels(const Parameters& p, const io::LabelTable& table)
   std::sort(labels.begin(), labels.end());
   labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
 
-  for (const LabelSizeText& size : p.LabelSizeTexts)
+  selection.Sizes = ToSizes("label-size", p.LabelSizeTexts, table);
+  for (const auto& [label, size] : selection.Sizes)
   {
-    const std::int64_t label = ToLabel("label-size", size.Label, table);
-    if (!selection.Sizes.emplace(label, size.Size).second)
-    {
-      throw UsageError("--label-size: label " + std::to_string(label) + " is given twice");
-    }
     if (!labels.empty() && !std::binary_search(labels.begin(), labels.end(), label))
     {
       throw UsageError(
@@ -209,6 +224,12 @@ LabelSelection SelectLabels(const Parameters& p, const io::LabelTable& table)
   }
   TakeInterfaceSizes(p, table, selection);
   return selection;
+}
+
+void SelectRepairs(const Parameters& p, const io::LabelTable& table, LabelSelection& selection)
+{
+  selection.Thicknesses = ToSizes("min-thickness", p.ThicknessTexts, table);
+  selection.Shells = ToSizes("shell", p.ShellTexts, table);
 }
 
 } // namespace voxplex::cli

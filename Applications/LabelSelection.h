@@ -24,6 +24,11 @@ struct LabelSelection
   /** Of interfaces: the larger label first; the other is AnyLabel where all interfaces of the first are meant. */
   std::map<std::pair<std::int64_t, std::int64_t>, double> InterfaceSizes;
   static constexpr std::int64_t AnyLabel = -1;
+  ///@{
+  /** For vtkSegmentationRepair. */
+  std::map<std::int64_t, double> Thicknesses;
+  std::map<std::int64_t, double> Shells;
+  ///@}
 };
 
 /** Whether a label is given by name, so that the image must be read to know which it is. */
@@ -39,6 +44,10 @@ bool HasNames(const Parameters& parameters);
  *   although it is not to be meshed
  */
 LabelSelection SelectLabels(const Parameters& parameters, const io::LabelTable& table);
+
+/** As SelectLabels(), for what is done to the image before: its shells have names afterwards. */
+void SelectRepairs(
+  const Parameters& parameters, const io::LabelTable& table, LabelSelection& selection);
 
 } // namespace voxplex::cli
 

@@ -85,7 +85,7 @@ void Connect(vtkSimplexMeshQuality* filter, const Parameters& parameters, const 
   filter->SetTimeScale(parameters.Value("time-scale").value_or(1.0));
   if (input.Labels && !parameters.Has("isovalue")) // grey values have no labels
   {
-    filter->SetImageConnection(input.Labels->GetOutputPort());
+    filter->SetImageConnection(input.Source()->GetOutputPort());
     return;
   }
   for (const double time : input.Labels ? input.TimesOfFrames() : parameters.Reading.FrameTimes)

@@ -9,6 +9,7 @@
 #include <vtkImageToPentatopeMeshFilter.h>
 #include <vtkImageToTetMeshFilter.h>
 #include <vtkSegmentationReader.h>
+#include <vtkSegmentationRepair.h>
 
 namespace voxplex::cli
 {
@@ -54,6 +55,16 @@ std::vector<double> MeshingInput::TimesOfFrames() const
   return times;
 }
 
+vtkAlgorithm* MeshingInput::Source() const
+{
+  return this->Repair ? static_cast<vtkAlgorithm*>(this->Repair) : this->Labels;
+}
+
+vtkImageData* MeshingInput::Image() const
+{
+  return vtkImageData::SafeDownCast(this->Source()->GetOutputDataObject(0));
+}
+
 vtkSmartPointer<vtkImageToSimplexMeshFilter> Mesh(
   const Parameters& parameters, const MeshingInput& input, const ProgressFunction& progress)
 {
@@ -62,7 +73,7 @@ vtkSmartPointer<vtkImageToSimplexMeshFilter> Mesh(
   {
     filter = vtkSmartPointer<vtkImageToPentatopeMeshFilter>::New();
   }
-  filter->SetInputConnection(input.Labels->GetOutputPort());
+  filter->SetInputConnection(input.Source()->GetOutputPort());
   Configure(filter, parameters, input.Selection);
   if (input.Sizes)
   {

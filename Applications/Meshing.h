@@ -15,7 +15,10 @@
 #include <vector>
 
 class vtkImageToSimplexMeshFilter;
+class vtkAlgorithmOutput;
+class vtkImageData;
 class vtkSegmentationReader;
+class vtkSegmentationRepair;
 
 namespace voxplex::cli
 {
@@ -24,11 +27,18 @@ namespace voxplex::cli
 struct MeshingInput
 {
   vtkSmartPointer<vtkSegmentationReader> Labels; ///< null if there is only a mesh
-  vtkSmartPointer<vtkSegmentationReader> Sizes;  ///< null if there is no image of sizes
+  vtkSmartPointer<vtkSegmentationRepair>
+    Repair; ///< of Labels; null if nothing is repaired or checked
+  vtkSmartPointer<vtkSegmentationReader> Sizes; ///< null if there is no image of sizes
   LabelSelection Selection;
 
   int Dimension() const; ///< 4 if there are several frames, else 3
   std::vector<double> TimesOfFrames() const;
+  ///@{
+  /** The image as it is meshed. */
+  vtkAlgorithm* Source() const;
+  vtkImageData* Image() const;
+  ///@}
 };
 
 /**

@@ -143,7 +143,7 @@ std::vector<double> ParseNumbers(const std::string& option, std::string_view tex
   return numbers;
 }
 
-LabelSizeText ParseLabelSize(const std::string& option, std::string_view text)
+LabelSizeText ParseLabelSize(const std::string& option, std::string_view text, bool isSigned)
 {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string_view::npos)
@@ -153,7 +153,8 @@ LabelSizeText ParseLabelSize(const std::string& option, std::string_view text)
   }
   const std::string_view label = text.substr(0, equals);
   ParseLabelNumber(option, label);
-  return { std::string(label), ParseReal(option, text.substr(equals + 1), Lengths) };
+  return { std::string(label),
+    ParseReal(option, text.substr(equals + 1), isSigned ? ParameterRange() : Lengths) };
 }
 
 InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view text)

@@ -40,8 +40,9 @@ std::vector<std::string> SplitAtCommas(std::string_view text);
 /** "0.5,1": finite numbers with commas between them. */
 std::vector<double> ParseNumbers(const std::string& option, std::string_view text);
 
-/** "3=1.5" or "Tibia=1.5"; the last = counts. */
-LabelSizeText ParseLabelSize(const std::string& option, std::string_view text);
+/** "3=1.5" or "Tibia=1.5"; the last = counts. The length is positive, if it is not a signed one. */
+LabelSizeText ParseLabelSize(
+  const std::string& option, std::string_view text, bool isSigned = false);
 
 /** "3=0.5" or "Tibia,Femur=0.5"; the last = counts. */
 InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view text);

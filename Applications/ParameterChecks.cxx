@@ -69,6 +69,11 @@ void CheckIsosurface(const Parameters& p)
   {
     constexpr const char* Why = ": grey-value images have no labels; leave it or --isovalue out";
     RefuseIf(!p.LabelTexts.empty(), "--labels", Why);
+    RefuseIf(p.Has("fill-holes"), "--fill-holes", Why);
+    RefuseIf(p.Has("remove-spikes"), "--remove-spikes", Why);
+    RefuseIf(!p.ThicknessTexts.empty(), "--min-thickness", Why);
+    RefuseIf(!p.ShellTexts.empty(), "--shell", Why);
+    RefuseIf(p.Has("check-image"), "--check-image", Why);
     RefuseIf(p.Inputs.size() > 1, "--isovalue",
       ": only for one image of grey values, and several files are masks; leave one of the two out");
     RefuseIf(!p.Reading.LabelTable.empty(), "--label-table", Why);
@@ -141,7 +146,8 @@ void CheckTogether(const Parameters& p)
   RequireFormat(OutputOption::Statistics, p.Statistics);
   if (!HasNames(p))
   {
-    SelectLabels(p, io::LabelTable());
+    LabelSelection selection = SelectLabels(p, io::LabelTable());
+    SelectRepairs(p, io::LabelTable(), selection);
   }
 }
 

@@ -38,6 +38,7 @@ struct ReadingOptions
 {
   std::string Series;
   int Overlap = 0; ///< of vtkSegmentationReader
+  double MaskThreshold = 0.5;
   bool ResampleMasks = false;
   std::string LabelTable;
   std::vector<double> FrameTimes;
@@ -70,6 +71,8 @@ struct Parameters
   /** Of the table, apart from lists of labels and sizes. */
   ParameterValues Values{ { "threads", 0.0 }, { "memory-limit", 0.0 } };
   std::vector<LabelSizeText> LabelSizeTexts;
+  std::vector<LabelSizeText> ThicknessTexts; ///< smallest ones
+  std::vector<LabelSizeText> ShellTexts;     ///< may be negative
   std::vector<InterfaceSizeText> InterfaceSizeTexts;
   std::vector<std::string> LabelTexts; ///< each is one label, or several with commas between them
 

@@ -83,11 +83,15 @@ ordered_json DescribeValue(const Parameters& p, const MeshingParameter& paramete
 /** Null for what was left to its default. */
 ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selection)
 {
-  ordered_json labelSizes = ordered_json::object();
-  for (const auto& [label, size] : selection.Sizes)
+  const auto byLabel = [](const std::map<std::int64_t, double>& sizes)
   {
-    labelSizes[std::to_string(label)] = size;
-  }
+    ordered_json object = ordered_json::object();
+    for (const auto& [label, size] : sizes)
+    {
+      object[std::to_string(label)] = size;
+    }
+    return object;
+  };
   ordered_json interfaceSizes = ordered_json::object();
   for (const auto& [labels, size] : selection.InterfaceSizes)
   {
@@ -98,8 +102,9 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
   ordered_json parameters = {
     { "input", p.Inputs.size() == 1 ? ordered_json(p.Inputs.front()) : ordered_json(p.Inputs) },
     { "overlap", p.Reading.Overlap == 0 ? "smallest" : "order" },
-    { "resample_masks", p.Reading.ResampleMasks }, { "series", OrNull(p.Reading.Series) },
-    { "output", OrNull(p.Output) }, { "plc", OrNull(p.Interfaces) }
+    { "mask_threshold", p.Reading.MaskThreshold }, { "resample_masks", p.Reading.ResampleMasks },
+    { "series", OrNull(p.Reading.Series) }, { "output", OrNull(p.Output) },
+    { "plc", OrNull(p.Interfaces) }
   };
   for (const MeshingParameter& parameter : MeshingParameters())
   {
@@ -110,9 +115,10 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
       parameters[key] = DescribeValue(p, parameter);
     }
   }
-  parameters.update({ { "interface_size", interfaceSizes }, { "label_size", labelSizes },
-    { "size_image", OrNull(p.SizeImage) }, { "labels", selection.Labels },
-    { "label_table", OrNull(p.Reading.LabelTable) },
+  parameters.update({ { "interface_size", interfaceSizes },
+    { "label_size", byLabel(selection.Sizes) }, { "min_thickness", byLabel(selection.Thicknesses) },
+    { "shell", byLabel(selection.Shells) }, { "size_image", OrNull(p.SizeImage) },
+    { "labels", selection.Labels }, { "label_table", OrNull(p.Reading.LabelTable) },
     { "frame_times", OrNull(p.Reading.FrameTimes) }, { "spacing", OrNull(p.Reading.Spacing) },
     { "origin", OrNull(p.Reading.Origin) }, { "direction", OrNull(p.Reading.Direction) },
     { "data_files_anywhere", p.Reading.DataFilesAnywhere }, { "space", ToString(p.Reading.Space) },

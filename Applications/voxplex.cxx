@@ -29,12 +29,15 @@
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkSegmentationReader.h>
+#include <vtkSegmentationRepair.h>
 #include <vtkSimplexMeshWriter.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <optional>
+#include <sstream>
 #include <vector>
 
 namespace voxplex::cli
@@ -184,6 +187,7 @@ vtkSmartPointer<vtkSegmentationReader> ReadFile(
     reader->AddFileName(path.c_str());
   }
   reader->SetOverlap(options.Overlap);
+  reader->SetMaskThreshold(options.MaskThreshold);
   reader->SetResampleMasks(options.ResampleMasks);
   reader->SetSeriesUID(options.Series.c_str());
   reader->SetLabelTableFileName(options.LabelTable.c_str());
@@ -276,6 +280,87 @@ MeshWithInterfaces ReadMesh(const Parameters& p, const MeshingInput& input)
   return given;
 }
 
+/** The highest of all frames. */
+std::int64_t HighestLabel(vtkSegmentationReader* reader)
+{
+  double highest = 0.0;
+  for (int frame = 0; frame < reader->GetNumberOfFrames(); ++frame)
+  {
+    reader->UpdateTimeStep(reader->GetTimeOfFrame(frame));
+    highest = std::max(highest, reader->GetOutput()->GetScalarRange()[1]);
+  }
+  return static_cast<std::int64_t>(highest);
+}
+
+/** Puts a filter behind the reader if one is needed. */
+void RepairImage(const Parameters& p, MeshingInput& input)
+{
+  const io::LabelTable names = io::GetLabelTable(input.Labels->GetOutput()->GetFieldData());
+  SelectRepairs(p, names, input.Selection);
+  input.Repair = MakeRepair(p.Values, input.Selection, p.Words);
+  if (!input.Repair)
+  {
+    return;
+  }
+  if (input.Dimension() == 4 && !input.Selection.Shells.empty())
+  {
+    const std::int64_t named = names.Entries.empty() ? 0 : names.Entries.rbegin()->first;
+    input.Repair->SetFirstShellLabel(1 + std::max(named, HighestLabel(input.Labels)));
+  }
+  input.Repair->SetInputConnection(input.Labels->GetOutputPort());
+  CompleteOrExit(p,
+    [&](const ProgressFunction& progress)
+    {
+      Execute(input.Repair,
+        [&](double fraction, const std::string&) { return progress(fraction, "Repairing"); });
+      return input.Repair;
+    });
+  if (!input.Repair->GetErrorMessage().empty())
+  {
+    throw RunError("cannot repair '" + p.InputName() + "': " + input.Repair->GetErrorMessage());
+  }
+}
+
+/** What was done to the image, and what is suspicious about it. */
+struct RepairReport
+{
+  nlohmann::ordered_json Rows = nlohmann::ordered_json::array();
+  std::string Text;
+};
+
+RepairReport ReportRepair(const Parameters& p, const MeshingInput& input)
+{
+  RepairReport report;
+  const bool isSeries = input.Dimension() == 4;
+  for (const double time : input.TimesOfFrames())
+  {
+    std::ostringstream begin;
+    if (isSeries)
+    {
+      input.Repair->UpdateTimeStep(time);
+      begin << "time " << time << ": ";
+    }
+    for (auto row : nlohmann::ordered_json::parse(input.Repair->ToJSON()))
+    {
+      if (isSeries)
+      {
+        row["time"] = time;
+      }
+      report.Rows.push_back(row);
+    }
+    std::istringstream lines(input.Repair->GetReport());
+    for (std::string line; std::getline(lines, line);)
+    {
+      report.Text += begin.str() + line + '\n';
+    }
+  }
+  if (report.Text.empty() && p.Has("check-image"))
+  {
+    report.Text = "Nothing is suspicious.\n";
+  }
+  return report;
+}
+
 /** Names of labels of the image, and the labels that are asked for. */
 io::LabelTable NameLabels(const Parameters& p, MeshingInput& input)
 {
@@ -288,20 +373,40 @@ io::LabelTable NameLabels(const Parameters& p, MeshingInput& input)
   {
     io::SetLabelTable(fields, {});
   }
-  io::LabelTable names = io::GetLabelTable(fields);
-  input.Selection = SelectLabels(p, names);
+  RepairImage(p, input);
+  io::LabelTable names = io::GetLabelTable(input.Image()->GetFieldData());
+  LabelSelection selection = SelectLabels(p, names);
+  selection.Thicknesses = input.Selection.Thicknesses;
+  selection.Shells = input.Selection.Shells;
+  input.Selection = selection;
   return names;
 }
 
-/** Writes the image that was read. */
+/** Whether the image is wanted, or what is suspicious about it, and no mesh. */
+bool IsAboutImage(const Parameters& p)
+{
+  const bool isAboutMesh =
+    p.Quality || !(p.Output + p.Interfaces + p.Statistics + p.Slices + p.Slabs + p.Mesh).empty();
+  return !p.SavedImage.empty() || (p.Has("check-image") && !isAboutMesh);
+}
+
+/** Writes the image that was read, perhaps repaired, and says what was repaired and is suspicious. */
 void SaveImage(const Parameters& p)
 {
   io::WholeFiles files;
   AnnounceFile(files, p.SavedImage);
   ProtectInputs(files, p);
-  const MeshingInput input = Read(p);
-  WriteImage(input.Labels, files.TemporaryPath(p.SavedImage));
+  MeshingInput input = Read(p);
+  RepairImage(p, input);
+  if (!p.SavedImage.empty())
+  {
+    WriteImage(input.Labels, input.Source(), files.TemporaryPath(p.SavedImage));
+  }
   CommitFiles(files);
+  if (input.Repair)
+  {
+    std::cout << ReportRepair(p, input).Text << std::flush;
+  }
 }
 
 using Filter = vtkSmartPointer<vtkImageToSimplexMeshFilter>;
@@ -388,7 +493,16 @@ void Run(const Parameters& p)
   const Stopwatch writing;
   WriteFiles(p, mesh, slices, slabs, files);
   times.Write = writing.Seconds();
-  const nlohmann::ordered_json report = Report(p, input, mesh, filter, times, names);
+  nlohmann::ordered_json report = Report(p, input, mesh, filter, times, names);
+  RepairReport repair;
+  if (input.Repair)
+  {
+    repair = ReportRepair(p, input);
+  }
+  if (input.Repair && !report.is_null())
+  {
+    report["repair"] = repair.Rows;
+  }
   if (!p.Statistics.empty())
   {
     WriteReport(report, p.Statistics, files);
@@ -399,7 +513,7 @@ void Run(const Parameters& p)
     Warn(WarningsOf(filter));
   }
   std::cout << (filter ? Summarize(report) : SummarizeMesh(mesh.Mesh, dimension, report, times))
-            << (p.Quality ? SummarizeMeasurement(report) : "") << std::flush;
+            << (p.Quality ? SummarizeMeasurement(report) : "") << repair.Text << std::flush;
 }
 
 int Main(int argc, const char* const* argv)
@@ -416,7 +530,7 @@ int Main(int argc, const char* const* argv)
     const CommandLine commandLine = ParseCommandLine(argc, argv);
     if (commandLine.Run)
     {
-      commandLine.Run->SavedImage.empty() ? Run(*commandLine.Run) : SaveImage(*commandLine.Run);
+      IsAboutImage(*commandLine.Run) ? SaveImage(*commandLine.Run) : Run(*commandLine.Run);
     }
     else
     {

@@ -74,6 +74,7 @@ vtkStandardNewMacro(vtkSegmentationReader);
 vtkSegmentationReader::vtkSegmentationReader()
   : FileName(nullptr)
   , Overlap(OVERLAP_SMALLEST)
+  , MaskThreshold(0.5)
   , ResampleMasks(false)
   , SeriesUID(nullptr)
   , LabelTableFileName(nullptr)
@@ -100,6 +101,7 @@ void vtkSegmentationReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n"
      << indent << "FileNames: " << this->FileNames.size() << "\n"
      << indent << "Overlap: " << (this->Overlap == OVERLAP_SMALLEST ? "smallest" : "order") << "\n"
+     << indent << "MaskThreshold: " << this->MaskThreshold << "\n"
      << indent << "ResampleMasks: " << (this->ResampleMasks ? "on" : "off") << "\n"
      << indent << "SeriesUID: " << (this->SeriesUID ? this->SeriesUID : "(none)") << "\n"
      << indent
@@ -212,7 +214,7 @@ bool vtkSegmentationReader::Read()
     RefuseIf(data.Path.empty(), "no file name is set");
     ImageAnswer answer = ReadImageOrMasks(paths,
       { "", this->SeriesUID ? this->SeriesUID : "", this->DataFilesAnywhere,
-        this->Overlap == OVERLAP_ORDER ? Overlap::Order : Overlap::Smallest },
+        this->Overlap == OVERLAP_ORDER ? Overlap::Order : Overlap::Smallest, this->MaskThreshold },
       this->ResampleMasks);
     data.Image = std::move(answer.Image);
     data.Labels = std::move(answer.Labels);

@@ -5,15 +5,16 @@
  * @brief   reads a segmentation with its place in space, its times and the names of its labels
  *
  * Reads one file, or a folder with a DICOM series, in three or four dimensions, the fourth being time. The first bytes
- * of a file tell its format, not its name: NRRD, NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK (.vtk, .vti), GIPL, MRC.
+ * of a file tell its format, not its name: NRRD, NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK (.vtk, .vti), MGH, GIPL,
+ * MRC.
  * Documentation/FileFormats.md says what each of them tells about the place of the image, and what is done where it
  * does not.
  *
  * @par Masks
  * Several files, and those of a folder of images that are not DICOM, are masks, one for each structure, inside where
- * they are not 0 (real numbers, from 0 to 1: above 0.5). They become labels 1, 2, ... of one image of unsigned short,
+ * they are not 0 (real numbers, from 0 to 1: above MaskThreshold). They become labels 1, 2, ... of one image of unsigned short,
  * in the order given, or that of names in a folder (rib_2 before rib_10), and have the names of their files. So do
- * segments of a .seg.nrrd file that overlap. A warning tells what overlaps, and which masks are without a voxel. Beside
+ * segments of a .seg.nrrd file that overlap. Segments of a DICOM segmentation keep their numbers. A warning tells what overlaps, and which masks are without a voxel. Beside
  * the result, of 2 bytes a voxel, one mask is in memory at a time.
  *
  * @par Output
@@ -106,6 +107,12 @@ public:
   /** OVERLAP_SMALLEST (default) or OVERLAP_ORDER. */
   vtkSetClampMacro(Overlap, int, OVERLAP_SMALLEST, OVERLAP_ORDER);
   vtkGetMacro(Overlap, int);
+  ///@}
+
+  ///@{
+  /** Above which probabilities, from 0 to 1, are inside: of masks, and of fractional DICOM segmentations. Default 0.5. */
+  vtkSetClampMacro(MaskThreshold, double, 0.0, 1.0);
+  vtkGetMacro(MaskThreshold, double);
   ///@}
 
   ///@{
@@ -211,6 +218,7 @@ protected:
   char* FileName;
   std::vector<std::string> FileNames;
   int Overlap;
+  double MaskThreshold;
   bool ResampleMasks;
   char* SeriesUID;
   char* LabelTableFileName;

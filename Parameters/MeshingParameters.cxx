@@ -30,6 +30,7 @@ constexpr GroupText GroupTexts[] = {
   { "Shapes and small objects", "Better shapes, and objects that are small compared with delta." },
   { "Sizes of interfaces", "How delta and element sizes vary from place to place." },
   { "Quality", "The defaults suit finite elements." },
+  { "Repair of segmentations", "Changes of the image before it is meshed; each is reported." },
   { "Space-time images (four dimensions, the last is time)",
     "They become one mesh of space and time." },
   { "Running", "How the machine is used." },

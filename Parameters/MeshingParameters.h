@@ -46,6 +46,7 @@ enum class ParameterGroup
   Shapes,
   Interfaces,
   Quality,
+  Repair,
   SpaceTime,
   Running
 };
@@ -109,6 +110,8 @@ struct MeshingParameter
 
   ParameterGroup Group{};
 
+  /** Whether it is one of vtkSegmentationRepair, not of the meshing filters. */
+  bool IsOfRepair() const { return this->Group == ParameterGroup::Repair; }
   bool IsNumber() const;
   bool IsOnByDefault() const { return this->Default == "on"; }
   /**

@@ -32,9 +32,10 @@ ordered_json Describe(const MeshingParameter& p)
   ordered_json row = { { "name", p.Name }, { "group", TitleOf(p.Group) },
     { "kind", Kinds[static_cast<int>(p.Kind)] }, { "property", PropertyOf(p) },
     { "label", LabelOf(p) }, { "default", p.Default }, { "zero", p.Zero }, { "step", p.Step },
-    { "unit", p.Unit }, { "dimension", p.Dimension }, { "words", p.Words },
-    { "range", Range(p.Range) }, { "usual", Range(p.Usual.value_or(p.Range)) },
-    { "low_is_outside", p.Range.LowIsOutside }, { "force", nullptr } };
+    { "unit", p.Unit }, { "dimension", p.Dimension }, { "of_repair", p.IsOfRepair() },
+    { "words", p.Words }, { "range", Range(p.Range) },
+    { "usual", Range(p.Usual.value_or(p.Range)) }, { "low_is_outside", p.Range.LowIsOutside },
+    { "force", nullptr } };
   if (const auto limit = p.ForceBelow ? p.ForceBelow : p.ForceAbove)
   {
     row["force"] = *limit;
@@ -59,7 +60,8 @@ void PrintSetter(const MeshingParameter& p)
   constexpr const char* classes[] = { "Filter", "", "", "Tets", "Pentatopes" };
   if (p.Kind < ParameterKind::Labels)
   {
-    std::cout << "{ \"" << p.Name << "\", To(&" << classes[p.Dimension] << "::Set" << PropertyOf(p)
+    std::cout << "{ \"" << p.Name << "\", To(&"
+              << (p.IsOfRepair() ? "Repair" : classes[p.Dimension]) << "::Set" << PropertyOf(p)
               << ") },\n";
   }
 }

@@ -223,6 +223,30 @@ Parameters Quality()
   };
 }
 
+/** In the order in which they are done. */
+Parameters Repair()
+{
+  return {
+    Number(Kind::Whole, "fill-holes", 0, { 1.0, LargestWhole }, "", "VOXELS",
+      "fill cavities of at most this number of voxels with the label around them",
+      { .Zero = "none is filled" }),
+    Flag("remove-spikes", 0, "off",
+      "remove strings of voxels, one voxel wide, that hang on a label on one side only"),
+    List(Kind::LabelSizes, "min-thickness", "LABEL=LENGTH",
+      "thicken labels where they are thinner, at the cost of what is around them",
+      { .Property = "MinimumThickness",
+        .Label = "Smallest thickness of labels",
+        .Slicer = "minimumThickness",
+        .Panel = "Minimum Thickness" }),
+    List(Kind::LabelSizes, "shell", "LABEL=LENGTH",
+      "make a new label of this thickness around a label, in background, or, if it is negative, of "
+      "the outer voxels of the label",
+      { .Label = "Shells", .Slicer = "shells", .Python = "shells" }),
+    Flag("check-image", 0, "off",
+      "report what is suspicious in the image, such as crumbs, cavities and thin parts"),
+  };
+}
+
 Parameters SpaceTime()
 {
   return {
@@ -331,6 +355,7 @@ const std::vector<MeshingParameter>& MeshingParameters()
     { Group::Shapes, Shapes() },
     { Group::Interfaces, Interfaces() },
     { Group::Quality, Quality() },
+    { Group::Repair, Repair() },
     { Group::SpaceTime, SpaceTime() },
     { Group::Running, Running() },
   });

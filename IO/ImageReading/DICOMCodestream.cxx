@@ -201,8 +201,8 @@ void CheckHeader(const Header& header, const DICOMPixelFormat& format)
   const bool isShifted =
     format.HighBit + 1 != format.BitsStored && header.Bits != format.BitsAllocated;
   const bool isSignLost = format.IsSigned ? header.Bits < format.BitsStored : header.IsSigned;
-  RefuseIf(header.Bits < 2, "its pixels are compressed and have ", header.Bits,
-    " bit, which is not supported: decompress it first (gdcmconv --raw)");
+  RefuseIf(header.Bits < (format.BitsAllocated == 1 ? 1 : 2), "its pixels are compressed and have ",
+    header.Bits, " bit, which is not supported: decompress it first (gdcmconv --raw)");
   RefuseIf(header.Bits > format.BitsAllocated || isShifted || isSignLost, "its pixels have ",
     header.Bits, (header.IsSigned ? " signed" : ""), " bits where they are compressed, and ",
     format.BitsStored, (format.IsSigned ? " signed" : ""),

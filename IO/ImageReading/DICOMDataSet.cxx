@@ -452,6 +452,19 @@ std::optional<unsigned> DICOMDataSet::Short(const DICOMTag& tag) const
   return ReadNumber(std::as_bytes(std::span(value)), this->Encoding.IsBigEndian);
 }
 
+std::vector<unsigned> DICOMDataSet::Shorts(const DICOMTag& tag) const
+{
+  constexpr std::array<std::string_view, 3> numbers{ "US", "SS", "OW" };
+  const std::string value = this->Value(tag, numbers);
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(value));
+  std::vector<unsigned> result;
+  for (std::size_t at = 0; bytes.size() % 2 == 0 && at < bytes.size(); at += 2)
+  {
+    result.push_back(ReadNumber(bytes.subspan(at, 2), this->Encoding.IsBigEndian));
+  }
+  return result;
+}
+
 std::vector<DICOMDataSet> DICOMDataSet::Items(const DICOMTag& tag) const
 {
   std::vector<DICOMDataSet> items;

@@ -84,6 +84,8 @@ public:
 
   /** An unsigned number of two bytes. */
   std::optional<unsigned> Short(const DICOMTag& tag) const;
+  /** Several; none if there are none, or a byte is left over. */
+  std::vector<unsigned> Shorts(const DICOMTag& tag) const;
 
   /** Of a sequence; none if it is missing. */
   std::vector<DICOMDataSet> Items(const DICOMTag& tag) const;

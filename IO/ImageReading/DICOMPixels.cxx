@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DICOMPixels.h"
 
+#include "ByteSource.h"
 #include "FileError.h"
 #include "Text.h"
 
@@ -63,9 +64,12 @@ DICOMPixelFormat ReadFormat(const DICOMDataSet& data)
   format.IsSigned = representation == 1;
   RefuseIf(format.Rows == 0 || format.Columns == 0, "it has ", format.Rows, " rows and ",
     format.Columns, " columns");
-  RefuseIf(format.BitsAllocated != 8 && format.BitsAllocated != 16 && format.BitsAllocated != 32,
-    "its ", BitsAllocated, " is ", format.BitsAllocated,
-    ": voxels of 8, 16 and 32 bits are read: convert it first");
+  const bool isOfSegments = HasFramesOfSegments(data);
+  RefuseIf(format.BitsAllocated != 8 &&
+      (isOfSegments ? format.BitsAllocated != 1
+                    : format.BitsAllocated != 16 && format.BitsAllocated != 32),
+    "its ", BitsAllocated, " is ", format.BitsAllocated, ": voxels of ",
+    (isOfSegments ? "1 and 8" : "8, 16 and 32"), " bits are read: convert it first");
   RefuseIf(format.BitsStored == 0 || format.HighBit >= format.BitsAllocated ||
       format.HighBit + 1 < format.BitsStored,
     "its voxels have ", format.BitsStored, " bits stored up to bit ", format.HighBit, " of ",
@@ -133,11 +137,58 @@ void DecodeSegment(
     (done < count ? std::to_string(done) + " of " : std::string("more than ")), count, " bytes");
 }
 
+/** A byte for each of so many bits from one on. The lowest of a byte comes first. */
+std::vector<std::byte> UnpackBits(
+  const std::vector<std::byte>& packed, std::size_t first, std::size_t count)
+{
+  std::vector<std::byte> bytes(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    bytes[i] = packed[(first + i) / 8] >> (first + i) % 8 & std::byte{ 1 };
+  }
+  return bytes;
+}
+
+/** What a part of memory holds. */
+class MemorySource : public ByteSource
+{
+public:
+  explicit MemorySource(std::span<const std::byte> bytes)
+    : Left(bytes)
+  {
+  }
+  std::size_t Read(std::span<std::byte> to) override
+  {
+    const std::size_t length = std::min(to.size(), this->Left.size());
+    std::copy_n(this->Left.begin(), length, to.begin());
+    this->Left = this->Left.subspan(length);
+    return length;
+  }
+
+private:
+  std::span<const std::byte> Left;
+};
+
+/** Each frame is a stream of its own. */
+DICOMFrame DecodeDeflate(const std::vector<std::byte>& packed, const DICOMPixelFormat& format)
+{
+  DICOMFrame frame{ std::vector<std::byte>(static_cast<std::size_t>(format.StoredBytesOfFrame())),
+    static_cast<std::size_t>(format.BytesOfSample()), false };
+  MemorySource source(packed);
+  InflateSource stream(source, false);
+  const std::size_t found = stream.Read(frame.Samples);
+  RefuseIf(found != frame.Samples.size(),
+    "its pixels are truncated or damaged: a frame unpacks to ", found, " of ", frame.Samples.size(),
+    " bytes");
+  stream.Finish();
+  return frame;
+}
+
 /** Segments hold a byte of each pixel, the most significant first. */
 DICOMFrame DecodeRLE(const std::vector<std::byte>& packed, const DICOMPixelFormat& format)
 {
   constexpr std::size_t headerSize = 64;
-  const std::size_t expected = format.BitsAllocated / 8;
+  const auto expected = static_cast<std::size_t>(format.BytesOfSample());
   const auto number = [&packed](std::size_t index)
   { return ReadNumber(std::span(packed).subspan(4 * index, 4), false); };
   RefuseIf(packed.size() < headerSize || number(0) != expected,
@@ -176,6 +227,11 @@ bool IsLabelMap(const DICOMDataSet& data)
   return data.Text(SOPClass) == "1.2.840.10008.5.1.4.1.1.66.7";
 }
 
+bool HasFramesOfSegments(const DICOMDataSet& data)
+{
+  return data.Text(SOPClass) == "1.2.840.10008.5.1.4.1.1.66.4";
+}
+
 DICOMPixels::DICOMPixels(const DICOMDataSet& data)
   : Data(data)
 {
@@ -196,6 +252,10 @@ DICOMPixels::DICOMPixels(const DICOMDataSet& data)
   RefuseIf(pixels->Length != DICOMElement::Undefined,
     "its pixels are damaged: they are not compressed, as its transfer syntax ",
     NameOfSyntax(data.Syntax().UID), " says");
+  RefuseIf(this->Layout.BitsAllocated == 1 &&
+      (this->Method == Compression::JPEG || this->Method == Compression::JPEGLS),
+    "its voxels of 1 bit are compressed by ", NameOfSyntax(data.Syntax().UID),
+    ", which is not supported: decompress it first (gdcmconv --raw)");
   this->FindFrames(*pixels);
   this->CheckRatio();
 }
@@ -209,13 +269,14 @@ void DICOMPixels::ChooseCompression(const std::string& syntax, const std::string
     bool IsLossy = false;
   };
   constexpr std::string_view root = "1.2.840.10008.1.2";
-  constexpr std::array<Known, 15> known{ { { "", Compression::None }, { ".1", Compression::None },
+  constexpr std::array<Known, 16> known{ { { "", Compression::None }, { ".1", Compression::None },
     { ".2", Compression::None }, { ".1.99", Compression::None }, { ".5", Compression::RLE },
-    { ".4.50", Compression::JPEG, true }, { ".4.51", Compression::JPEG, true },
-    { ".4.53", Compression::JPEG, true }, { ".4.55", Compression::JPEG, true },
-    { ".4.57", Compression::JPEG }, { ".4.70", Compression::JPEG },
-    { ".4.80", Compression::JPEGLS }, { ".4.81", Compression::JPEGLS, true },
-    { ".4.90", Compression::JPEG2000 }, { ".4.91", Compression::JPEG2000 } } };
+    { ".8.1", Compression::Deflate }, { ".4.50", Compression::JPEG, true },
+    { ".4.51", Compression::JPEG, true }, { ".4.53", Compression::JPEG, true },
+    { ".4.55", Compression::JPEG, true }, { ".4.57", Compression::JPEG },
+    { ".4.70", Compression::JPEG }, { ".4.80", Compression::JPEGLS },
+    { ".4.81", Compression::JPEGLS, true }, { ".4.90", Compression::JPEG2000 },
+    { ".4.91", Compression::JPEG2000 } } };
   const auto found = std::find_if(known.begin(), known.end(),
     [&](const Known& one)
     { return syntax.empty() ? one.UID.empty() : syntax == std::string(root).append(one.UID); });
@@ -232,10 +293,10 @@ void DICOMPixels::ChooseCompression(const std::string& syntax, const std::string
 
 void DICOMPixels::CheckRawLength(const DICOMElement& pixels) const
 {
-  const std::uint64_t frame = this->Layout.BytesOfFrame();
+  const std::uint64_t frame = this->Layout.Pixels() * this->Layout.BitsAllocated;
   const auto frames = static_cast<std::uint64_t>(this->NumberOfFrames);
-  const bool isEndless = frame > std::numeric_limits<std::uint64_t>::max() / frames;
-  const std::uint64_t needed = frame * frames;
+  const bool isEndless = frame > (std::numeric_limits<std::uint64_t>::max() - 7) / frames;
+  const std::uint64_t needed = (frame * frames + 7) / 8;
   RefuseIf(pixels.Length == DICOMElement::Undefined,
     "its pixels are damaged: they have no length, and are not compressed");
   RefuseIf(isEndless || pixels.Length < needed,
@@ -275,7 +336,8 @@ void DICOMPixels::FindFrames(const DICOMElement& pixels)
     }
     return;
   }
-  const bool isByEnds = table.empty() && this->Method != Compression::RLE;
+  const bool isByEnds =
+    table.empty() && this->Method != Compression::RLE && this->Method != Compression::Deflate;
   bool hasEnded = true;
   for (const DICOMElement& fragment : fragments)
   {
@@ -304,6 +366,7 @@ void DICOMPixels::CheckRatio() const
 {
   // A block of 64 pixels takes a bit of JPEG at least.
   const std::uint64_t most = this->Method == Compression::RLE ? 64
+    : this->Method == Compression::Deflate                    ? 1032
     : this->Method == Compression::JPEG                       ? 1024
                                                               : 65536;
   for (const std::vector<DICOMElement>& fragments : this->FragmentsOfFrames)
@@ -313,8 +376,8 @@ void DICOMPixels::CheckRatio() const
     {
       packed += fragment.Length;
     }
-    RefuseIf(packed * most < this->Layout.BytesOfFrame(),
-      "its pixels are truncated or damaged: frames of ", this->Layout.BytesOfFrame(),
+    RefuseIf(packed * most < this->Layout.StoredBytesOfFrame(),
+      "its pixels are truncated or damaged: frames of ", this->Layout.StoredBytesOfFrame(),
       " bytes are not compressed to ", packed);
   }
 }
@@ -326,7 +389,8 @@ DICOMFrame DICOMPixels::Read(int frame) const
     case Compression::None:
       return this->ReadRaw(frame);
     case Compression::RLE:
-      return DecodeRLE(this->ReadFragments(frame), this->Layout);
+    case Compression::Deflate:
+      return this->ReadBytesOfFrame(frame);
     case Compression::JPEG:
       return DecodeJPEG(this->ReadFragments(frame), this->Layout);
     case Compression::JPEGLS:
@@ -337,23 +401,22 @@ DICOMFrame DICOMPixels::Read(int frame) const
   return {};
 }
 
-DICOMFrame DICOMPixels::ReadRaw(int frame) const
+/** Bytes of pixels that are not compressed, as they follow each other. */
+std::vector<std::byte> DICOMPixels::ReadStored(std::uint64_t offset, std::size_t size) const
 {
-  const std::size_t size = static_cast<std::size_t>(this->Layout.BytesOfFrame());
-  const std::size_t bytesOfSample = this->Layout.BitsAllocated / 8;
-  const std::uint64_t offset = static_cast<std::uint64_t>(frame) * size;
-  DICOMFrame result{ std::vector<std::byte>(size), bytesOfSample, false };
+  const std::size_t bytesOfSample = static_cast<std::size_t>(this->Layout.BytesOfSample());
+  std::vector<std::byte> bytes(size);
   if (!this->AreBytesSwapped || bytesOfSample > 1)
   {
-    this->Data.ReadBytes(this->Begin + offset, result.Samples);
+    this->Data.ReadBytes(this->Begin + offset, bytes);
     for (std::size_t i = 0; this->AreBytesSwapped && i < size; i += bytesOfSample)
     {
-      std::reverse(result.Samples.begin() + static_cast<std::ptrdiff_t>(i),
-        result.Samples.begin() + static_cast<std::ptrdiff_t>(i + bytesOfSample));
+      std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(i),
+        bytes.begin() + static_cast<std::ptrdiff_t>(i + bytesOfSample));
     }
-    return result;
+    return bytes;
   }
-  // Two pixels of a byte are in a word, which may belong to two frames.
+  // Two bytes are in a word, which may belong to two frames.
   std::vector<std::byte> words(size + 2);
   const std::uint64_t start = offset - offset % 2;
   const std::uint64_t end = offset + size + (offset + size) % 2;
@@ -361,7 +424,44 @@ DICOMFrame DICOMPixels::ReadRaw(int frame) const
     this->Begin + start, std::span(words).first(static_cast<std::size_t>(end - start)));
   for (std::size_t i = 0; i < size; ++i)
   {
-    result.Samples[i] = words[((offset + i) ^ 1) - start];
+    bytes[i] = words[((offset + i) ^ 1) - start];
+  }
+  return bytes;
+}
+
+DICOMFrame DICOMPixels::ReadRaw(int frame) const
+{
+  const auto size = static_cast<std::size_t>(this->Layout.BytesOfFrame());
+  const std::uint64_t first = static_cast<std::uint64_t>(frame) * size;
+  const auto bytesOfSample = static_cast<std::size_t>(this->Layout.BytesOfSample());
+  if (this->Layout.BitsAllocated > 1)
+  {
+    return { this->ReadStored(first, size), bytesOfSample, false };
+  }
+  // Frames of bits need not begin with a byte.
+  return { UnpackBits(this->ReadStored(
+                        first / 8, static_cast<std::size_t>((first + size + 7) / 8 - first / 8)),
+             static_cast<std::size_t>(first % 8), size),
+    bytesOfSample, false };
+}
+
+/** Compressed as bytes, in which there may be bits. */
+DICOMFrame DICOMPixels::ReadBytesOfFrame(int frame) const
+{
+  const bool isOfBits = this->Layout.BitsAllocated == 1;
+  DICOMPixelFormat bytes = this->Layout;
+  if (isOfBits)
+  {
+    bytes.Rows = 1;
+    bytes.Columns = static_cast<unsigned>(this->Layout.StoredBytesOfFrame());
+    bytes.BitsAllocated = 8;
+  }
+  const std::vector<std::byte> packed = this->ReadFragments(frame);
+  DICOMFrame result =
+    this->Method == Compression::RLE ? DecodeRLE(packed, bytes) : DecodeDeflate(packed, bytes);
+  if (isOfBits)
+  {
+    result.Samples = UnpackBits(result.Samples, 0, static_cast<std::size_t>(this->Layout.Pixels()));
   }
   return result;
 }

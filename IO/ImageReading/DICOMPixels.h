@@ -9,6 +9,7 @@
 
 #include "DICOMDataSet.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -22,17 +23,23 @@ struct DICOMPixelFormat
 {
   unsigned Rows = 0;
   unsigned Columns = 0;
-  unsigned BitsAllocated = 0; ///< 8, 16 or 32
+  unsigned BitsAllocated = 0; ///< 8, 16 or 32; of segments 1 or 8
   unsigned BitsStored = 0;
   unsigned HighBit = 0;
   bool IsSigned = false;
 
   bool operator==(const DICOMPixelFormat&) const = default;
   std::uint64_t Pixels() const { return std::uint64_t(this->Rows) * this->Columns; }
-  std::uint64_t BytesOfFrame() const { return this->Pixels() * (this->BitsAllocated / 8); }
+  std::uint64_t BytesOfSample() const { return std::max(1U, this->BitsAllocated / 8); }
+  std::uint64_t BytesOfFrame() const { return this->Pixels() * this->BytesOfSample(); }
+  /** In the file, where eight bits make a byte. */
+  std::uint64_t StoredBytesOfFrame() const
+  {
+    return (this->Pixels() * this->BitsAllocated + 7) / 8;
+  }
 };
 
-/** One frame. Each sample has bits that do not belong to it above its high bit, and maybe below. */
+/** One frame. Each sample has bits that do not belong to it above its high bit, and maybe below; one bit has a byte. */
 struct DICOMFrame
 {
   std::vector<std::byte> Samples; ///< little endian
@@ -45,6 +52,9 @@ struct DICOMFrame
  * and slices without labels may have been left out.
  */
 bool IsLabelMap(const DICOMDataSet& data);
+
+/** Whether it is a segmentation whose segments have frames of their own, of one bit or of fractions. */
+bool HasFramesOfSegments(const DICOMDataSet& data);
 
 class DICOMPixels
 {
@@ -67,6 +77,7 @@ private:
   {
     None,
     RLE,
+    Deflate,
     JPEG,
     JPEGLS,
     JPEG2000
@@ -75,7 +86,9 @@ private:
   void CheckRawLength(const DICOMElement& pixels) const;
   void FindFrames(const DICOMElement& pixels);
   void CheckRatio() const;
+  std::vector<std::byte> ReadStored(std::uint64_t offset, std::size_t size) const;
   DICOMFrame ReadRaw(int frame) const;
+  DICOMFrame ReadBytesOfFrame(int frame) const;
   std::vector<std::byte> ReadFragments(int frame) const;
 
   const DICOMDataSet& Data;

@@ -27,6 +27,7 @@ constexpr DICOMTag ImagePosition{ 0x00200032, "Image Position (Patient)" };
 constexpr DICOMTag ImageOrientation{ 0x00200037, "Image Orientation (Patient)" };
 constexpr DICOMTag PlanePosition{ 0x00209113, "Plane Position Sequence" };
 constexpr DICOMTag PlaneOrientation{ 0x00209116, "Plane Orientation Sequence" };
+constexpr DICOMTag Organization{ 0x00209311, "Dimension Organization Type" };
 constexpr DICOMTag PixelSpacing{ 0x00280030, "Pixel Spacing" };
 constexpr DICOMTag RescaleIntercept{ 0x00281052, "Rescale Intercept" };
 constexpr DICOMTag RescaleSlope{ 0x00281053, "Rescale Slope" };
@@ -35,6 +36,9 @@ constexpr DICOMTag PixelMeasures{ 0x00289110, "Pixel Measures Sequence" };
 constexpr DICOMTag PixelTransformation{ 0x00289145, "Pixel Value Transformation Sequence" };
 constexpr DICOMTag GridFrameOffsets{ 0x3004000C, "Grid Frame Offset Vector" };
 constexpr DICOMTag DoseGridScaling{ 0x3004000E, "Dose Grid Scaling" };
+constexpr DICOMTag WholeColumns{ 0x00480006, "Total Pixel Matrix Columns" };
+constexpr DICOMTag SegmentIdentification{ 0x0062000A, "Segment Identification Sequence" };
+constexpr DICOMTag ReferencedSegment{ 0x0062000B, "Referenced Segment Number" };
 constexpr DICOMTag SharedGroups{ 0x52009229, "Shared Functional Groups Sequence" };
 constexpr DICOMTag GroupsOfFrames{ 0x52009230, "Per-frame Functional Groups Sequence" };
 constexpr DICOMTag FloatPixels{ 0x7FE00008, "Float Pixel Data" };
@@ -43,6 +47,8 @@ constexpr DICOMTag PixelData{ 0x7FE00010, "Pixel Data" };
 
 /** Of directions, which must have length 1 and be at a right angle, as texts have few digits. */
 constexpr double Tolerance = 1e-3;
+constexpr double SamePlace = 0.01;        ///< of the distance of slices, or of the size of a voxel
+constexpr double ToleratedInPlane = 0.25; ///< of a voxel
 
 double Dot(const Vector3& a, const Vector3& b)
 {
@@ -86,20 +92,19 @@ public:
   /** @return empty if it is missing */
   std::vector<double> Numbers(const DICOMTag& group, const DICOMTag& tag, std::size_t count) const
   {
-    for (const DICOMDataSet* groups : { this->OfFrame, this->Shared })
-    {
-      const std::vector<DICOMDataSet> items =
-        groups ? groups->Items(group) : std::vector<DICOMDataSet>();
-      RefuseIf(items.size() > 1, "its ", group, " has several items for a frame");
-      if (items.size() == 1)
-      {
-        if (std::vector<double> numbers = items[0].Numbers(tag, count); !numbers.empty())
-        {
-          return numbers;
-        }
-      }
-    }
-    return this->OfFrame ? std::vector<double>() : this->File.Numbers(tag, count);
+    std::vector<double> numbers;
+    const bool isFound = this->Find(group,
+      [&](const DICOMDataSet& item) { return !(numbers = item.Numbers(tag, count)).empty(); });
+    return isFound || this->OfFrame ? numbers : this->File.Numbers(tag, count);
+  }
+
+  /** @return 0 if it is missing */
+  unsigned Short(const DICOMTag& group, const DICOMTag& tag) const
+  {
+    unsigned number = 0;
+    this->Find(
+      group, [&](const DICOMDataSet& item) { return (number = item.Short(tag).value_or(0)) > 0; });
+    return number;
   }
 
   std::vector<double> Required(const DICOMTag& group, const DICOMTag& tag, std::size_t count) const
@@ -112,6 +117,23 @@ public:
   }
 
 private:
+  /** Whether an item has what is looked for. */
+  template <typename THas>
+  bool Find(const DICOMTag& group, THas&& has) const
+  {
+    for (const DICOMDataSet* groups : { this->OfFrame, this->Shared })
+    {
+      const std::vector<DICOMDataSet> items =
+        groups ? groups->Items(group) : std::vector<DICOMDataSet>();
+      RefuseIf(items.size() > 1, "its ", group, " has several items for a frame");
+      if (items.size() == 1 && has(items[0]))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
   const DICOMDataSet& File;
   const DICOMDataSet* Shared;
   const DICOMDataSet* OfFrame;
@@ -164,6 +186,7 @@ DICOMSlice ReadSlice(const Groups& groups)
   const std::vector<double> thickness = groups.Numbers(PixelMeasures, SliceThickness, 1);
   slice.Distance = distance.empty() ? 0.0 : std::abs(distance[0]);
   slice.Thickness = thickness.empty() ? 0.0 : thickness[0];
+  slice.Segment = groups.Short(SegmentIdentification, ReferencedSegment);
   return slice;
 }
 
@@ -228,21 +251,37 @@ void CheckDirections(const std::vector<DICOMSlice>& slices)
   }
 }
 
-/** The slices are sorted. */
-void FillGaps(std::vector<DICOMSlice>& slices, const Vector3& normal)
+/** The distance of slices, from one to the next: as it is told, or else the smallest. They are sorted. */
+double FindDistance(const std::vector<DICOMSlice>& slices, const Vector3& normal)
 {
-  constexpr double most = 10'000; // few frames must not ask for much memory
+  double distance = slices.front().Distance;
+  for (std::size_t i = 1; i < slices.size() && slices.front().Distance == 0; ++i)
+  {
+    const double gap = Dot(Combine(slices[i].Position, -1.0, slices[i - 1].Position), normal);
+    distance = i == 1 ? gap : std::min(distance, gap);
+  }
+  return distance;
+}
+
+/** The slices are sorted. */
+void FillGaps(
+  std::vector<DICOMSlice>& slices, const Vector3& normal, std::vector<std::string>& warnings)
+{
+  // Few frames must not ask for much memory.
+  const double most = std::min(10'000.0, 1'000.0 * static_cast<double>(slices.size()));
+  const double distance = FindDistance(slices, normal);
   std::vector<DICOMSlice> all;
+  bool areAllApart = true;
   for (const DICOMSlice& slice : slices)
   {
-    const double distance = slices.front().Distance;
     const DICOMSlice before = all.empty() ? slice : all.back();
     const Vector3 between = Combine(slice.Position, -1.0, before.Position);
     const double gap = Dot(between, normal);
     const double missing = distance > 0 ? std::round(gap / distance) - 1.0 : 0.0;
     RefuseIf(missing + static_cast<double>(all.size()) > most, before.Name, " and ", slice.Name,
       " are ", gap, " mm apart, and its ", SpacingBetweenSlices, " is ", distance,
-      ": correct its header");
+      (slice.Distance > 0 ? "" : ", by other frames"), ": correct its header");
+    areAllApart = areAllApart && (all.empty() || missing > 0);
     for (double i = 1.0; i <= missing; ++i)
     {
       all.push_back(before);
@@ -250,6 +289,16 @@ void FillGaps(std::vector<DICOMSlice>& slices, const Vector3& normal)
       all.back().Position = Combine(before.Position, i / (missing + 1.0), between);
     }
     all.push_back(slice);
+  }
+  const bool isTold = slices.front().Distance > 0;
+  if (isTold ? areAllApart && slices.size() > 1 : all.size() > slices.size())
+  {
+    std::ostringstream warning;
+    warning << "it leaves out slices, "
+            << (isTold ? "between any two of its frames, by a Spacing Between Slices of "
+                       : "and does not tell their distance, which is taken to be ")
+            << distance << " mm" << (isTold ? "" : ", the smallest of its frames");
+    warnings.push_back(warning.str());
   }
   slices = std::move(all);
 }
@@ -263,12 +312,9 @@ void CheckObject(const DICOMDataSet& data)
     std::string_view UID;
     const char* Reason;
   };
-  constexpr std::array<Unsuitable, 6> unsuitable{ {
+  constexpr std::array<Unsuitable, 5> unsuitable{ {
     { "1.2.840.10008.1.3.10",
       "a DICOMDIR, which lists other files: give one of these, or the folder of a series" },
-    { "1.2.840.10008.5.1.4.1.1.66.4",
-      "a DICOM segmentation object, whose segments are frames apart and may overlap: convert it to "
-      "a label map (dcmqi's segimage2itkimage, 3D Slicer)" },
     { "1.2.840.10008.5.1.4.1.1.66.5",
       "a DICOM surface segmentation, which has surfaces and no voxels: convert it to a label map "
       "(3D Slicer)" },
@@ -289,6 +335,8 @@ void CheckObject(const DICOMDataSet& data)
   {
     Refuse("it is ", found->Reason);
   }
+  RefuseIf(data.Find(WholeColumns) || data.Text(Organization).starts_with("TILED"),
+    "its frames are tiles of a picture, as of whole-slide microscopy, and no slices of a volume");
   if (!data.Find(PixelData))
   {
     gdcm::UIDs names;
@@ -316,16 +364,21 @@ std::vector<DICOMSlice> ReadSlices(const DICOMDataSet& data, int frames)
 }
 
 Vector3 ArrangeSlices(
-  std::vector<DICOMSlice>& slices, bool isComplete, std::vector<std::string>& warnings)
+  std::vector<DICOMSlice>& slices, DICOMStack stack, std::vector<std::string>& warnings)
 {
-  constexpr double samePlace = 0.01; // of the distance of slices
-  constexpr double tolerated = 0.1;
-  constexpr double toleratedInPlane = 0.25; // of a voxel
+  constexpr double tolerated = 0.1; // of the distance of slices
   CheckDirections(slices);
   const Vector3 normal = NormalOf(slices.front());
   std::stable_sort(slices.begin(), slices.end(),
     [&normal](const DICOMSlice& a, const DICOMSlice& b)
     { return Dot(a.Position, normal) < Dot(b.Position, normal); });
+  const double smallest = std::min(Length(slices.front().Row), Length(slices.front().Column));
+  if (stack == DICOMStack::OfSegments)
+  {
+    const auto isSame = [&](const DICOMSlice& a, const DICOMSlice& b)
+    { return Dot(Combine(b.Position, -1.0, a.Position), normal) <= SamePlace * smallest; };
+    slices.erase(std::unique(slices.begin(), slices.end(), isSame), slices.end());
+  }
   if (slices.size() == 1)
   {
     const DICOMSlice& only = slices[0];
@@ -339,19 +392,18 @@ Vector3 ArrangeSlices(
     }
     return Combine({}, known == 0 ? Length(only.Row) : known, normal);
   }
-  if (!isComplete)
+  if (stack != DICOMStack::Complete)
   {
-    FillGaps(slices, normal);
+    FillGaps(slices, normal, warnings);
   }
   const double count = static_cast<double>(slices.size() - 1);
   const Vector3 step =
     Combine({}, 1.0 / count, Combine(slices.back().Position, -1.0, slices.front().Position));
   const double distance = Dot(step, normal);
-  const double smallest = std::min(Length(slices.front().Row), Length(slices.front().Column));
   for (std::size_t i = 1; i < slices.size(); ++i)
   {
     const Vector3 between = Combine(slices[i].Position, -1.0, slices[i - 1].Position);
-    RefuseIf(!(Dot(between, normal) > samePlace * distance), slices[i - 1].Name, " and ",
+    RefuseIf(!(Dot(between, normal) > SamePlace * distance), slices[i - 1].Name, " and ",
       slices[i].Name,
       " are slices at one place: there are several images (times, echoes, copies), and one can be "
       "read: give the slices of one, in a folder of their own");
@@ -363,11 +415,28 @@ Vector3 ArrangeSlices(
     const double along = std::abs(Dot(apart, normal));
     const double inPlane = Length(Combine(apart, -Dot(apart, normal), normal));
     const double deviation = Length(apart);
-    RefuseIf(along > tolerated * distance || inPlane > toleratedInPlane * smallest,
+    RefuseIf(along > tolerated * distance || inPlane > ToleratedInPlane * smallest,
       "slices are missing, damaged or not evenly spaced: ", slices[i].Name, " is ", deviation,
       " mm from where slices ", distance, " mm apart put it; complete or resample the series");
   }
   return step;
+}
+
+std::size_t FindSlice(
+  const std::vector<DICOMSlice>& arranged, const Vector3& step, const DICOMSlice& frame)
+{
+  const DICOMSlice& first = arranged.front();
+  const Vector3 normal = NormalOf(first);
+  const double along = Dot(Combine(frame.Position, -1.0, first.Position), normal);
+  const auto index = arranged.size() == 1
+    ? std::size_t{ 0 }
+    : static_cast<std::size_t>(std::round(along / Dot(step, normal)));
+  const DICOMSlice& slice = arranged.at(index);
+  const Vector3 apart = Combine(frame.Position, -1.0, slice.Position);
+  RefuseIf(Length(apart) > ToleratedInPlane * std::min(Length(first.Row), Length(first.Column)),
+    frame.Name, " is ", Length(apart), " mm beside another one, ", slice.Name,
+    ", and frames of one volume are above each other: resample it first (3D Slicer)");
+  return index;
 }
 
 } // namespace voxplex::io

@@ -33,6 +33,15 @@ struct DICOMSlice
   double Thickness = 0.0; ///< 0: unknown
   double Slope = 1.0;
   double Intercept = 0.0;
+  unsigned Segment = 0; ///< of which the frame is; 0: none is told
+};
+
+/** Which slices a volume has. */
+enum class DICOMStack
+{
+  Complete,  ///< all, each once
+  LabelMap,  ///< some may have been left out
+  OfSegments ///< and several frames are at one place
 };
 
 /** @throws FileError: an object that is no volume of one value a voxel, and what to do with it */
@@ -42,15 +51,22 @@ void CheckObject(const DICOMDataSet& data);
 std::vector<DICOMSlice> ReadSlices(const DICOMDataSet& data, int frames);
 
 /**
- * Sorts slices along their normal.
- * @param isComplete if not, slices without a frame are put where slices have been left out; their distance must be
- * known
+ * Sorts slices along their normal. Slices without a frame are put where some have been left out: their distance is told,
+ * or the smallest that there is. Of several at one place, where this may be, the first is kept.
+ *
  * @param warnings receives what was taken for the thickness of one slice that does not tell it
  * @return the step from slice to slice, which need not be along the normal
  * @throws FileError: they differ in orientation or spacing, several are at one place, or one is out of place
  */
 Vector3 ArrangeSlices(
-  std::vector<DICOMSlice>& slices, bool isComplete, std::vector<std::string>& warnings);
+  std::vector<DICOMSlice>& slices, DICOMStack stack, std::vector<std::string>& warnings);
+
+/**
+ * Which of the arranged slices is at the place of a frame that was arranged with them.
+ * @throws FileError: the frame is beside it
+ */
+std::size_t FindSlice(
+  const std::vector<DICOMSlice>& arranged, const Vector3& step, const DICOMSlice& frame);
 
 } // namespace voxplex::io
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 
 namespace voxplex::io
 {
@@ -24,10 +23,17 @@ MaskUnion::MaskUnion(const ScalarImage& grid,
   std::fill_n(static_cast<Set*>(this->Image.Scalars.get()), count, Set{ 0 });
 }
 
-std::uint32_t MaskUnion::AddName(std::string name)
+std::uint32_t MaskUnion::AddName(std::string name, std::uint16_t label)
 {
   this->Names.push_back(std::move(name));
-  return static_cast<std::uint32_t>(this->Names.size());
+  const auto number = static_cast<std::uint32_t>(this->Names.size());
+  this->Labels.push_back(label > 0 ? label : static_cast<Set>(number));
+  return number;
+}
+
+std::span<MaskUnion::Set> MaskUnion::AllSets() const
+{
+  return { static_cast<Set*>(this->Image.Scalars.get()), this->Image.NumberOfVoxels() };
 }
 
 /** The set that has this mask, too. */
@@ -48,14 +54,12 @@ MaskUnion::Set MaskUnion::With(Set set, std::uint32_t number)
 }
 
 template <typename T, typename TNumberOf>
-void MaskUnion::Add(const T* voxels, TNumberOf&& numberOf)
+void MaskUnion::Add(std::span<Set> to, const T* voxels, TNumberOf&& numberOf)
 {
-  const std::span<Set> sets(
-    static_cast<Set*>(this->Image.Scalars.get()), this->Image.NumberOfVoxels());
   Set last = 0; // voxels come in runs
   Set successor = 0;
   std::uint32_t lastNumber = 0;
-  for (Set& set : sets)
+  for (Set& set : to)
   {
     const std::uint32_t number = numberOf(*voxels++);
     if (number == 0)
@@ -72,7 +76,7 @@ void MaskUnion::Add(const T* voxels, TNumberOf&& numberOf)
   }
 }
 
-void MaskUnion::AddMask(const ScalarImage& mask)
+void MaskUnion::AddMask(const ScalarImage& mask, double threshold)
 {
   const auto number = static_cast<std::uint32_t>(this->Names.size());
   bool hasSeveral = false;
@@ -81,7 +85,7 @@ void MaskUnion::AddMask(const ScalarImage& mask)
     {
       using T = decltype(zero);
       T inside = 0;
-      this->Add(static_cast<const T*>(mask.Scalars.get()),
+      this->Add(this->AllSets(), static_cast<const T*>(mask.Scalars.get()),
         [&](T voxel)
         {
           if constexpr (std::is_floating_point_v<T>)
@@ -90,9 +94,8 @@ void MaskUnion::AddMask(const ScalarImage& mask)
             if (!(voxel >= -rounding && voxel <= 1 + rounding))
             {
               Refuse("it has the value ", voxel,
-                ", and the real numbers of a mask are probabilities from 0 to 1, of which more "
-                "than "
-                "0.5 is inside: save it with whole numbers");
+                ", and the real numbers of a mask are probabilities from 0 to 1: save it with "
+                "whole numbers");
             }
           }
           else if (voxel != 0)
@@ -100,13 +103,20 @@ void MaskUnion::AddMask(const ScalarImage& mask)
             hasSeveral = hasSeveral || (inside != 0 && voxel != inside);
             inside = voxel;
           }
-          return IsInside(voxel) ? number : 0;
+          return IsInside(voxel, threshold) ? number : 0;
         });
     });
   if (hasSeveral)
   {
     this->WithSeveralValues.push_back(number);
   }
+}
+
+void MaskUnion::AddSlice(
+  const std::vector<std::uint8_t>& voxels, std::size_t slice, std::uint32_t number)
+{
+  this->Add(this->AllSets().subspan(slice * voxels.size(), voxels.size()), voxels.data(),
+    [number](std::uint8_t voxel) { return voxel != 0 ? number : 0; });
 }
 
 void MaskUnion::AddLayer(const ScalarImage& image, int frame,
@@ -127,7 +137,8 @@ void MaskUnion::AddLayer(const ScalarImage& image, int frame,
       }
       T last = 0;
       std::uint32_t number = 0;
-      this->Add(static_cast<const T*>(image.Scalars.get()) +
+      this->Add(this->AllSets(),
+        static_cast<const T*>(image.Scalars.get()) +
           image.NumberOfVoxels() * static_cast<std::size_t>(frame),
         [&](T voxel)
         {
@@ -184,21 +195,22 @@ void MaskUnion::WarnOfOverlaps(
 void MaskUnion::WarnOf(const std::string& what, const std::vector<std::uint32_t>& numbers,
   std::vector<std::string>& warnings) const
 {
+  constexpr std::size_t most = 100; // a header may list 65535
   std::string names;
-  for (const std::uint32_t number : numbers)
+  for (std::size_t i = 0; i < std::min(most, numbers.size()); ++i)
   {
-    names += (names.empty() ? "" : ", ") + Excerpt(this->NameOf(number));
+    names += (i > 0 ? ", " : "") + Excerpt(this->NameOf(numbers[i]));
   }
   if (!names.empty())
   {
-    warnings.push_back(this->Word + what + names);
+    warnings.push_back(this->Word + what + names +
+      (numbers.size() > most ? ", and " + std::to_string(numbers.size() - most) + " more" : ""));
   }
 }
 
 ScalarImage MaskUnion::Finish(Overlap rule, std::vector<std::string>& warnings)
 {
-  const std::span<Set> sets(
-    static_cast<Set*>(this->Image.Scalars.get()), this->Image.NumberOfVoxels());
+  const std::span<Set> sets = this->AllSets();
   Counts voxels(this->Members.size());
   for (const Set set : sets)
   {
@@ -222,7 +234,7 @@ ScalarImage MaskUnion::Finish(Overlap rule, std::vector<std::string>& warnings)
       : std::min_element(members.begin(), members.end(),
           [&sizes](std::uint32_t a, std::uint32_t b)
           { return std::pair(sizes[a], a) < std::pair(sizes[b], b); });
-    labels[set] = static_cast<Set>(*first);
+    labels[set] = this->Labels[*first - 1];
     left[*first] += voxels[set];
   }
   for (Set& set : sets)

@@ -14,6 +14,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
@@ -30,11 +31,11 @@ enum class Overlap
   Order     ///< the first
 };
 
-/** Whole numbers are inside unless 0, real ones, which are probabilities, above 0.5. */
+/** Whole numbers are inside unless 0, real ones, which are probabilities, above a threshold. */
 template <typename T>
-constexpr bool IsInside(T voxel)
+constexpr bool IsInside(T voxel, double threshold = 0.5)
 {
-  return std::is_floating_point_v<T> ? voxel > T(0.5) : voxel != T(0);
+  return std::is_floating_point_v<T> ? voxel > static_cast<T>(threshold) : voxel != T(0);
 }
 
 /**
@@ -51,15 +52,24 @@ public:
   MaskUnion(const ScalarImage& grid,
     const std::function<std::shared_ptr<void>(std::size_t)>& allocate, std::string word);
 
-  /** Of the next mask, which need not have voxels. Labels are numbers from 1 on. */
-  std::uint32_t AddName(std::string name);
+  /**
+   * Of the next mask, which need not have voxels.
+   *
+   * @param label 0: its number
+   * @return its number, from 1 on
+   */
+  std::uint32_t AddName(std::string name, std::uint16_t label = 0);
 
   /**
    * Adds the last named mask.
    *
+   * @param threshold above which probabilities are inside
    * @throws FileError with the reason alone: real numbers that are no probabilities, more than 65535 sets of masks
    */
-  void AddMask(const ScalarImage& mask);
+  void AddMask(const ScalarImage& mask, double threshold = 0.5);
+
+  /** Adds voxels of one slice to a mask: those that are not 0. Masks are to be added in one order in all slices. */
+  void AddSlice(const std::vector<std::uint8_t>& voxels, std::size_t slice, std::uint32_t number);
 
   /** Adds those masks whose numbers the values of a frame stand for. Other values are outside. */
   void AddLayer(const ScalarImage& image, int frame,
@@ -72,8 +82,9 @@ private:
   using Set = std::uint16_t;
   using Counts = std::vector<std::uint64_t>;
 
+  std::span<Set> AllSets() const;
   template <typename T, typename TNumberOf>
-  void Add(const T* voxels, TNumberOf&& numberOf);
+  void Add(std::span<Set> to, const T* voxels, TNumberOf&& numberOf);
   Set With(Set set, std::uint32_t number);
   void WarnOfOverlaps(Overlap rule, const Counts& voxels, std::vector<std::string>& warnings) const;
   void WarnOf(const std::string& what, const std::vector<std::uint32_t>& numbers,
@@ -83,6 +94,7 @@ private:
   ScalarImage Image; ///< of sets
   std::string Word;
   std::vector<std::string> Names;
+  std::vector<Set> Labels; ///< of each number, from 1 on
   std::vector<std::uint32_t> WithSeveralValues;
   std::vector<std::vector<std::uint32_t>> Members{ {} }; ///< of each set; the first is background
   std::map<std::pair<Set, std::uint32_t>, Set> Successors;

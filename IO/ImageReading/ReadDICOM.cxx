@@ -4,6 +4,7 @@
 
 #include "DICOMDataSet.h"
 #include "DICOMPixels.h"
+#include "DICOMSegments.h"
 #include "DICOMSlices.h"
 #include "Placement.h"
 #include "Text.h"
@@ -16,6 +17,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <type_traits>
 
@@ -42,7 +44,9 @@ struct Volume
   std::vector<DICOMSlice> Slices;
   DICOMPixelFormat Format;
   bool IsLossy = false;
-  bool IsComplete = true; ///< no slices have been left out
+  DICOMStack Stack = DICOMStack::Complete;
+  std::vector<DICOMSegment> Segments; ///< of a segmentation
+  std::uint16_t Background = 0;       ///< of a label map, beside 0
 };
 
 std::string NameInFolder(const std::string& path)
@@ -81,6 +85,11 @@ void CheckFormat(const DICOMSlice& first, const DICOMPixelFormat& a, const DICOM
   check("Pixel Representation (0028,0103)", a.IsSigned, b.IsSigned);
 }
 
+bool IsSegmentation(const DICOMDataSet& data)
+{
+  return IsLabelMap(data) || HasFramesOfSegments(data);
+}
+
 /** Adds the slices of a file. */
 DICOMPixelFormat AddFile(Volume& volume, const std::string& path)
 {
@@ -93,8 +102,13 @@ DICOMPixelFormat AddFile(Volume& volume, const std::string& path)
     volume.Slices.push_back(slice);
   }
   volume.IsLossy = volume.IsLossy || pixels.IsLossy();
-  volume.IsComplete = volume.IsComplete && !IsLabelMap(data);
   volume.Files.push_back(path);
+  if (IsSegmentation(data))
+  {
+    volume.Stack = IsLabelMap(data) ? DICOMStack::LabelMap : DICOMStack::OfSegments;
+    volume.Segments = ListSegments(data);
+    volume.Background = FindBackground(data);
+  }
   return pixels.Format();
 }
 
@@ -103,12 +117,11 @@ void AddSlice(Volume& volume, const std::string& path)
 {
   const std::size_t before = volume.Slices.size();
   const DICOMPixelFormat format = Naming(path, [&] { return AddFile(volume, path); });
-  if (const std::size_t frames = volume.Slices.size() - before; frames > 1)
-  {
-    Refuse(NameInFolder(path), " has ", frames,
-      " frames, and there are other files in its series: each may be an image of its own: give one "
-      "of the files");
-  }
+  const std::size_t frames = volume.Slices.size() - before;
+  RefuseIf(frames > 1 || volume.Stack == DICOMStack::OfSegments, NameInFolder(path), " has ",
+    frames, (volume.Stack == DICOMStack::OfSegments ? " frames of segments" : " frames"),
+    ", and there are other files in its series: each may be an image of its own: give one of the "
+    "files");
   volume.Slices.back().Name = NameInFolder(path);
   volume.Format = before == 0 ? format : volume.Format;
   CheckFormat(volume.Slices.front(), volume.Format, volume.Slices.back(), format);
@@ -185,10 +198,31 @@ void Convert(
   }
 }
 
+void WarnOfLoss(const Volume& volume, Reading& reading)
+{
+  if (volume.IsLossy)
+  {
+    reading.Warnings.push_back("its voxels were compressed with loss, which makes wrong labels at "
+                               "their borders: take the images from before, if there are any");
+  }
+}
+
+void TakeLabels(const Volume& volume, Reading& reading)
+{
+  for (const DICOMSegment& segment : volume.Segments)
+  {
+    if (!segment.Entry.Name.empty())
+    {
+      reading.Labels.Entries[segment.Number] = segment.Entry;
+    }
+  }
+  LeaveOutOtherTexts(reading.Labels, reading.Warnings);
+}
+
 ScalarImage ReadVolume(Volume& volume, Reading& reading)
 {
   ScalarImage image;
-  const Vector3 step = ArrangeSlices(volume.Slices, volume.IsComplete, reading.Warnings);
+  const Vector3 step = ArrangeSlices(volume.Slices, volume.Stack, reading.Warnings);
   const DICOMSlice& first = volume.Slices.front();
   Place(image, { first.Row, first.Column, step }, first.Position);
   SetSizes(image,
@@ -234,12 +268,80 @@ ScalarImage ReadVolume(Volume& volume, Reading& reading)
     }
     isFolder ? Naming(volume.Files[slice.File], read) : read();
   }
-  if (volume.IsLossy)
+  if (volume.Background != 0)
   {
-    reading.Warnings.push_back("its voxels were compressed with loss, which makes wrong labels at "
-                               "their borders: take the images from before, if there are any");
+    Dispatch(image.Type,
+      [&](auto zero)
+      {
+        auto* scalars = static_cast<decltype(zero)*>(image.Scalars.get());
+        std::replace(scalars, scalars + image.NumberOfVoxels(),
+          static_cast<decltype(zero)>(volume.Background), zero);
+      });
   }
+  WarnOfLoss(volume, reading);
+  TakeLabels(volume, reading);
   return image;
+}
+
+/** Whether voxels of a frame are in its segment. */
+std::vector<std::uint8_t> AboveThreshold(
+  const DICOMFrame& frame, const DICOMPixelFormat& format, double threshold)
+{
+  std::array<std::uint8_t, 256> isAbove{};
+  const unsigned shift = format.HighBit + 1 - format.BitsStored;
+  const unsigned mask = (1U << format.BitsStored) - 1;
+  for (unsigned byte = 0; byte < isAbove.size(); ++byte)
+  {
+    isAbove[byte] = (byte >> shift & mask) > threshold;
+  }
+  std::vector<std::uint8_t> result(frame.Samples.size());
+  std::transform(frame.Samples.begin(), frame.Samples.end(), result.begin(),
+    [&isAbove](std::byte sample) { return isAbove[std::to_integer<std::size_t>(sample)]; });
+  return result;
+}
+
+/** Of segments with frames of their own, which may overlap. */
+ScalarImage ReadSegments(Volume& volume, Reading& reading)
+{
+  ScalarImage image;
+  std::vector<DICOMSlice> slices = volume.Slices;
+  const Vector3 step = ArrangeSlices(slices, volume.Stack, reading.Warnings);
+  Place(image, { slices.front().Row, slices.front().Column, step }, slices.front().Position);
+  SetSizes(image,
+    { std::int64_t(volume.Format.Columns), std::int64_t(volume.Format.Rows),
+      static_cast<std::int64_t>(slices.size()) });
+
+  MaskUnion segments(image, reading.Allocate, "segments");
+  std::map<unsigned, std::uint32_t> numbers;
+  for (const DICOMSegment& segment : volume.Segments)
+  {
+    const std::string& name = segment.Entry.Name;
+    numbers[segment.Number] = segments.AddName(
+      name.empty() ? "segment " + std::to_string(segment.Number) : name, segment.Number);
+  }
+  const DICOMDataSet data(volume.Files.front());
+  const DICOMPixels pixels(data);
+  const double threshold = FindThreshold(data, reading.MaskThreshold);
+  std::set<std::pair<unsigned, std::size_t>> known;
+  std::stable_sort(volume.Slices.begin(), volume.Slices.end(),
+    [](const DICOMSlice& a, const DICOMSlice& b) { return a.Segment < b.Segment; });
+  for (const DICOMSlice& frame : volume.Slices)
+  {
+    const auto segment = numbers.find(frame.Segment);
+    RefuseIf(segment == numbers.end(), frame.Name, " is of segment ", frame.Segment,
+      ", which is not listed: correct its header");
+    const std::size_t slice = FindSlice(slices, step, frame);
+    RefuseIf(!known.insert({ frame.Segment, slice }).second, frame.Name,
+      " is the second one of segment ", frame.Segment,
+      " at its place: there are several images (times, copies), and one can be read: give the "
+      "frames of one");
+    const DICOMFrame read = pixels.Read(frame.Frame);
+    volume.IsLossy = volume.IsLossy || read.IsLossy;
+    segments.AddSlice(AboveThreshold(read, volume.Format, threshold), slice, segment->second);
+  }
+  WarnOfLoss(volume, reading);
+  TakeLabels(volume, reading);
+  return segments.Finish(reading.Rule, reading.Warnings);
 }
 
 /** Files of a folder with one Series Instance UID. */
@@ -247,6 +349,7 @@ struct Series
 {
   FileNames Files;
   bool HasImages = false;
+  bool IsOfSegments = false; ///< a segmentation
 };
 
 using SeriesByUID = std::map<std::string, Series>;
@@ -272,6 +375,7 @@ void AddToSeries(SeriesByUID& series, const std::string& path)
   }
   series[uid].Files.push_back(path);
   series[uid].HasImages = series[uid].HasImages || hasPixels;
+  series[uid].IsOfSegments = series[uid].IsOfSegments || IsSegmentation(data);
 }
 
 /** Those of a folder that have images. */
@@ -319,8 +423,9 @@ std::string ListSeries(const SeriesByUID& series)
   return list.str();
 }
 
-/** The one series of a folder, or the one that the user asks for. */
-FileNames ChooseSeries(const SeriesByUID& available, const std::string& wanted)
+/** The one series of a folder, its one segmentation, or the one that the user asks for. */
+FileNames ChooseSeries(
+  const SeriesByUID& available, const std::string& wanted, std::vector<std::string>& warnings)
 {
   RefuseIf(available.empty(),
     "the folder holds no DICOM images, and no files that are named as masks are (.nii.gz, .nrrd)");
@@ -333,6 +438,16 @@ FileNames ChooseSeries(const SeriesByUID& available, const std::string& wanted)
     [&wanted](const auto& one) { return one.first.starts_with(wanted); });
   RefuseIf(
     matching.empty(), "there is no DICOM series '", wanted, "'; there are", ListSeries(available));
+  const auto isOfSegments = [](const auto& one) { return one.second.IsOfSegments; };
+  if (wanted.empty() && matching.size() > 1 &&
+    std::count_if(matching.begin(), matching.end(), isOfSegments) == 1)
+  {
+    const auto one = std::find_if(matching.begin(), matching.end(), isOfSegments);
+    warnings.push_back("the folder holds " + std::to_string(matching.size()) +
+      " DICOM series, and the one that is a segmentation was read ('" + Excerpt(one->first) +
+      "'); SetSeriesUID() chooses another");
+    return one->second.Files;
+  }
   RefuseIf(matching.size() > 1, "the folder holds ", matching.size(),
     " DICOM series; choose one with", ListSeries(matching));
   return matching.begin()->second.Files;
@@ -349,18 +464,18 @@ ScalarImage ReadDICOMFile(const std::string& path, Reading& reading)
 {
   Volume volume;
   volume.Format = AddFile(volume, path);
-  return ReadVolume(volume, reading);
+  return volume.Stack == DICOMStack::OfSegments ? ReadSegments(volume, reading)
+                                                : ReadVolume(volume, reading);
 }
 
 ScalarImage ReadDICOMFolder(const std::string& path, const std::string& series, Reading& reading)
 {
-  const FileNames files = ChooseSeries(FindSeries(path), series);
-  Volume volume;
+  const FileNames files = ChooseSeries(FindSeries(path), series, reading.Warnings);
   if (files.size() == 1)
   {
-    volume.Format = Naming(files[0], [&] { return AddFile(volume, files[0]); });
-    return ReadVolume(volume, reading);
+    return Naming(files[0], [&] { return ReadDICOMFile(files[0], reading); });
   }
+  Volume volume;
   for (const std::string& name : files)
   {
     AddSlice(volume, name);

@@ -28,6 +28,7 @@ struct ImageRequest
   bool DataFilesAnywhere =
     false; ///< whether a header may name files that are not in its folder or below
   Overlap Rule = Overlap::Smallest; ///< of segments in several layers
+  double MaskThreshold = 0.5;       ///< above which probabilities are inside
 };
 
 struct ImageAnswer
@@ -42,7 +43,7 @@ using VoxelAllocator = std::function<std::shared_ptr<void>(std::size_t bytes)>;
 
 /**
  * Reads an image here and now, in the scalar type that the file has. The first bytes of a file tell its format, not
- * its name: NRRD, NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK, GIPL, MRC. A fourth dimension is time; last dimensions
+ * its name: NRRD, NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK, MGH, GIPL, MRC. A fourth dimension is time; last dimensions
  * of length 1 do not count, so that an image with one frame is a 3D image. Never prints.
  *
  * @throws FileError that names the image: no such file, another format, truncated, damaged, no single numbers in three

@@ -25,7 +25,7 @@ struct Format
 };
 
 /** By what is surest in the first bytes of a file. MRC has three letters there, which may be in a comment of others. */
-constexpr std::array<Format, 8> Formats{ {
+constexpr std::array<Format, 9> Formats{ {
   { IsNRRD, ReadNRRD },
   { IsDICOM, ReadDICOMFile },
   { IsTIFF, ReadTIFF },
@@ -33,6 +33,7 @@ constexpr std::array<Format, 8> Formats{ {
   { IsGIPL, ReadGIPL },
   { IsNIfTI, ReadNIfTI },
   { IsMetaImage, ReadMetaImage },
+  { IsMGH, ReadMGH },
   { IsMRC, ReadMRC },
 } };
 
@@ -60,7 +61,8 @@ constexpr std::array<Stranger, 20> Strangers{ {
   { "PK\x03\x04", "it is a ZIP archive: unpack it first" },
   { "# === DATA DESCRIPTION FILE", "it is a Philips PAR file: convert it with dcm2niix" },
   { "##TITLE", "it is a Bruker parameter file" },
-  { "\x1f\x8b", "it is compressed by gzip, and is not an image of NIfTI or GIPL: unpack it first" },
+  { "\x1f\x8b",
+    "it is compressed by gzip, and is not an image of NIfTI, MGH or GIPL: unpack it first" },
   { "BZh", "it is compressed by bzip2: unpack it first" },
   { "\xfd"
     "7zXZ",
@@ -75,7 +77,7 @@ constexpr std::array<Stranger, 20> Strangers{ {
 {
   constexpr std::size_t longest = 64;
   constexpr const char* readable =
-    "those that are read are NRRD, NIfTI, MetaImage, DICOM, TIFF, VTK, GIPL and MRC";
+    "those that are read are NRRD, NIfTI, MetaImage, DICOM, TIFF, VTK, MGH, GIPL and MRC";
   const std::string begin = file.Beginning(longest);
   const auto stranger = std::find_if(Strangers.begin(), Strangers.end(),
     [&begin](const Stranger& one) { return begin.starts_with(one.Begin); });
@@ -104,6 +106,12 @@ ScalarImage ReadFileOrFolder(const ImageRequest& request, Reading& reading)
   RefuseIf(!fs::exists(status), "there is no such file or folder");
   if (fs::is_directory(status))
   {
+    for (const char* const name : { "zarr.json", ".zgroup", ".zarray" })
+    {
+      RefuseIf(fs::exists(fs::path(request.Path) / name, ignored),
+        "it is a Zarr folder: open the array of one resolution in Python (zarr.open), and give it "
+        "to voxplex.mesh() with its spacing");
+    }
     return ReadDICOMFolder(request.Path, request.Series, reading);
   }
   RefuseIf(!fs::is_regular_file(status), "it is neither a regular file nor a folder");
@@ -134,7 +142,8 @@ void WarnOfSpacing(Reading& reading)
 ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& allocate)
 {
   const std::string start = "cannot read '" + request.Path + "': ";
-  Reading reading{ allocate, request.DataFilesAnywhere, request.Rule, {}, {} };
+  Reading reading{ allocate, request.DataFilesAnywhere, request.Rule, request.MaskThreshold, {},
+    {} };
   ImageAnswer answer;
   try
   {

@@ -20,6 +20,7 @@ namespace
 
 constexpr std::size_t SizeOfGIPL = 256;
 constexpr std::size_t SizeOfMRC = 1024;
+constexpr std::size_t SizeOfMGH = 284;
 
 [[noreturn]] void RefuseType(const char* what, std::int64_t code)
 {
@@ -38,6 +39,54 @@ ScalarType TypeOfGIPL(std::int64_t code)
     RefuseType("image type", code);
   }
   return type->second;
+}
+
+ScalarType TypeOfMGH(std::int64_t code)
+{
+  using enum ScalarType;
+  static const std::map<std::int64_t, ScalarType> types{ { 0, UInt8 }, { 1, Int32 }, { 3, Float32 },
+    { 4, Int16 }, { 10, UInt16 } };
+  const auto type = types.find(code);
+  if (type == types.end())
+  {
+    RefuseType("type", code);
+  }
+  return type->second;
+}
+
+/** The header has the directions of the axes, and the place of the middle of the image. */
+void PlaceMGH(const Fields& fields, ScalarImage& image, Reading& reading)
+{
+  constexpr std::array<double, 3> signs{ -1.0, -1.0, 1.0 }; // from RAS
+  constexpr std::array<double, 9> coronal{ -1, 0, 0, 0, 0, -1, 0, 1, 0 };
+  const bool saysWhere = fields.Get<std::int16_t>(28) > 0;
+  Vector3 origin{};
+  std::array<Vector3, 3> steps{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double spacing = saysWhere ? fields.Get<float>(30 + 4 * axis) : 1.0;
+    CheckSpacing(spacing > 0 && std::isfinite(spacing), "the size of its voxels");
+    for (std::size_t row = 0; row < 3; ++row)
+    {
+      const std::size_t at = 3 * axis + row;
+      steps[axis][row] =
+        signs[row] * spacing * (saysWhere ? fields.Get<float>(42 + 4 * at) : coronal[at]);
+    }
+  }
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    origin[row] = saysWhere ? signs[row] * fields.Get<float>(78 + 4 * row) : 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      origin[row] -= steps[axis][row] * image.Dimensions[axis] / 2.0;
+    }
+  }
+  Place(image, steps, origin);
+  if (!saysWhere)
+  {
+    reading.Warnings.push_back("its header does not say where the image lies: coronal slices of "
+                               "voxels of 1 mm were taken, as FreeSurfer does");
+  }
 }
 
 bool IsBigEndianMRC(const std::string& bytes)
@@ -180,6 +229,47 @@ ScalarImage ReadGIPL(const std::string& path, Reading& reading)
   stored.Files = { path };
   stored.Coding = file.Beginning(2) == "\x1f\x8b" ? Encoding::Deflate : Encoding::Raw;
   stored.BytesToSkip = SizeOfGIPL;
+  ReadVoxels(stored, image, reading);
+  return image;
+}
+
+bool IsMGH(const InputFile& file)
+{
+  const std::string bytes = UnpackBeginning(file, SizeOfMGH);
+  bool isHeader = bytes.size() == SizeOfMGH && Fields(bytes, true).Get<std::int32_t>(0) == 1;
+  for (std::size_t i = 1; isHeader && i <= 4; ++i)
+  {
+    isHeader = Fields(bytes, true).Get<std::int32_t>(4 * i) > 0;
+  }
+  constexpr std::uint32_t most = 10; // of the types
+  return isHeader && Fields(bytes, true).Get<std::uint32_t>(20) <= most;
+}
+
+ScalarImage ReadMGH(const std::string& path, Reading& reading)
+{
+  const InputFile file(path);
+  const std::string bytes = UnpackBeginning(file, SizeOfMGH);
+  const Fields fields(bytes, true);
+  ScalarImage image;
+  image.Type = TypeOfMGH(fields.Get<std::int32_t>(20));
+  std::vector<std::int64_t> sizes;
+  for (std::size_t i = 1; i <= 4; ++i)
+  {
+    sizes.push_back(fields.Get<std::int32_t>(4 * i));
+  }
+  SetSizes(image, sizes);
+  PlaceMGH(fields, image, reading);
+  if (image.Frames > 1)
+  {
+    reading.Warnings.push_back(
+      "the time between its frames is taken to be 1; use SetTimeScale() to "
+      "weigh time against space");
+  }
+  StoredVoxels stored;
+  stored.IsBigEndian = true;
+  stored.Files = { path };
+  stored.Coding = file.Beginning(2) == "\x1f\x8b" ? Encoding::Deflate : Encoding::Raw;
+  stored.BytesToSkip = SizeOfMGH;
   ReadVoxels(stored, image, reading);
   return image;
 }

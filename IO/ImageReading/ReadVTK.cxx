@@ -315,11 +315,22 @@ ScalarImage ReadVTK(const std::string& path, Reading& reading)
   {
     reading.Warnings.push_back(warning);
   }
+  return TakeVTKImage(image, reading);
+}
 
+ScalarImage PlaceOfVTKImage(vtkImageData* image, Reading& reading)
+{
   const Labels labels = ChooseLabels(image);
   ScalarImage result;
   result.Type = ScalarTypeOf(labels.Array);
   SetGeometry(result, image, SpaceOf(image, reading), labels.AreCells);
+  return result;
+}
+
+ScalarImage TakeVTKImage(vtkImageData* image, Reading& reading)
+{
+  ScalarImage result = PlaceOfVTKImage(image, reading);
+  const Labels labels = ChooseLabels(image);
   reading.Labels = GetLabelTable(image->GetFieldData());
   LeaveOutOtherTexts(reading.Labels, reading.Warnings);
   const auto count = static_cast<vtkIdType>(result.NumberOfVoxels());

@@ -23,6 +23,8 @@
 #include <string>
 #include <vector>
 
+class vtkImageData;
+
 namespace voxplex::io
 {
 
@@ -37,6 +39,9 @@ struct Reading
 
   /** Of segments in several layers. */
   Overlap Rule = Overlap::Smallest;
+
+  /** Above which probabilities are inside. */
+  double MaskThreshold = 0.5;
 
   /** What was odd but could be read: a line each, without the name of the image. */
   std::vector<std::string> Warnings;
@@ -100,6 +105,9 @@ ScalarImage ReadMetaImage(const std::string& path, Reading& reading);
  * Slices are placed by Image Position and Orientation (Patient) and Pixel Spacing. Their files' names, order and
  * numbers do not matter. What has no place in space, or no single value a voxel, is refused with its name.
  *
+ * Segmentations, binary, fractional and label maps, give labels that are the numbers of their segments, with names and
+ * colours. Frames that are left out are background.
+ *
  * @param series UID, or how it begins; may be empty if there is one series in the folder
  */
 bool IsDICOM(const InputFile& file);
@@ -134,12 +142,25 @@ ScalarImage ReadTIFF(const std::string& path, Reading& reading);
  */
 bool IsVTK(const InputFile& file);
 ScalarImage ReadVTK(const std::string& path, Reading& reading);
+/** The same of an image in memory, and without its voxels. */
+ScalarImage TakeVTKImage(vtkImageData* image, Reading& reading);
+ScalarImage PlaceOfVTKImage(vtkImageData* image, Reading& reading);
 ///@}
 
 ///@{
 /** Guy's Image Processing Lab, packed by gzip or not. Coordinates are LPS along the axes. */
 bool IsGIPL(const InputFile& file);
 ScalarImage ReadGIPL(const std::string& path, Reading& reading);
+///@}
+
+///@{
+/**
+ * FreeSurfer's volumes (.mgh, packed by gzip .mgz). Coordinates are turned into LPS. A header that does not say where
+ * the image lies is one of coronal slices, with a warning. What is after the voxels is not read: frames have times
+ * 0, 1, 2, ..., with a warning.
+ */
+bool IsMGH(const InputFile& file);
+ScalarImage ReadMGH(const std::string& path, Reading& reading);
 ///@}
 
 ///@{

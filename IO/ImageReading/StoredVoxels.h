@@ -4,7 +4,7 @@
  * @file StoredVoxels.h
  * @brief Voxels as files hold them: raw, compressed by zlib, or as text.
  *
- * What NRRD, NIfTI, MetaImage, GIPL and MRC have in common: a header, and then numbers.
+ * What NRRD, NIfTI, MetaImage, MGH, GIPL and MRC have in common: a header, and then numbers.
  */
 #ifndef voxplex_io_StoredVoxels_h
 #define voxplex_io_StoredVoxels_h

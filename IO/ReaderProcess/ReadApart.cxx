@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -188,8 +189,10 @@ public:
     std::string series = request.Series;
     std::string anywhere = request.DataFilesAnywhere ? "1" : "0";
     std::string rule = request.Rule == Overlap::Order ? "1" : "0";
-    const std::array<char*, 6> arguments{ reader.data(), path.data(), series.data(),
-      anywhere.data(), rule.data(), nullptr };
+    std::array<char, 32> threshold{}; // more than a number takes
+    std::to_chars(threshold.begin(), threshold.end() - 1, request.MaskThreshold);
+    const std::array<char*, 7> arguments{ reader.data(), path.data(), series.data(),
+      anywhere.data(), rule.data(), threshold.data(), nullptr };
     if (posix_spawn(&this->Id, reader.c_str(), &settings.Actions, &settings.Attributes,
           arguments.data(), Environment()) != 0)
     {

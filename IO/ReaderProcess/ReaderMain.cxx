@@ -4,7 +4,7 @@
  * @file ReaderMain.cxx
  * @brief The program that reads one image for another process, which lives whatever the image does here.
  *
- *     voxplexImageReader PATH SERIES ANYWHERE RULE
+ *     voxplexImageReader PATH SERIES ANYWHERE RULE THRESHOLD
  *
  * Standard output receives the greeting and the answer (AnswerMessage.h). Descriptor 3 is the memory for voxels.
  */
@@ -12,6 +12,7 @@
 #include "Confinement.h"
 #include "FileError.h"
 #include "SharedMemory.h"
+#include "Text.h"
 
 #include <csignal>
 #include <cstring>
@@ -64,7 +65,7 @@ AnswerMessage Read(const ImageRequest& request)
 
 int main(int argc, char** argv)
 {
-  if (argc != 5)
+  if (argc != 6)
   {
     return 2;
   }
@@ -72,7 +73,8 @@ int main(int argc, char** argv)
   prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
   const ImageRequest request{ argv[1], argv[2], std::strcmp(argv[3], "1") == 0,
-    std::strcmp(argv[4], "1") == 0 ? Overlap::Order : Overlap::Smallest };
+    std::strcmp(argv[4], "1") == 0 ? Overlap::Order : Overlap::Smallest,
+    ToNumber<double>(argv[5]).value_or(0.5) };
   if (!Write(Greeting))
   {
     return 1;

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from . import program, xmlfiles
 from .errors import FileError, MeshingError
-from .images import Image, Path, place_of, read_nrrd, space_of
+from .images import Image, Path, place_of, read_nrrd, single_image, space_of, write_nrrd
 from .meshes import Mesh
 
 if TYPE_CHECKING:
@@ -26,42 +26,79 @@ if TYPE_CHECKING:
 _IS_FULL = re.compile(r"(/voxplex-\w{8}/|cannot write the (image|mesh):).*(No space left|quota exceeded)", re.DOTALL)
 
 
-def read_segmentation(path: Union[Path, Sequence[Path]], *, space: Literal["LPS", "RAS"] = "LPS",
+def read_segmentation(path: Union[Path, Sequence[Path], Mapping[str, Any]], *, space: Literal["LPS", "RAS"] = "LPS",
                       series_uid: Optional[str] = None, overlap: Literal["smallest", "order"] = "smallest",
-                      resample_masks: bool = False, label_table: Optional[Path] = None, spacing: Optional[ArrayLike] = None,
-                      origin: Optional[ArrayLike] = None, direction: Optional[ArrayLike] = None,
-                      data_files_anywhere: bool = False) -> Image:
+                      mask_threshold: float = 0.5, resample_masks: bool = False, label_table: Optional[Path] = None,
+                      spacing: Optional[ArrayLike] = None, origin: Optional[ArrayLike] = None,
+                      direction: Optional[ArrayLike] = None, data_files_anywhere: bool = False) -> Image:
     """Reads a label image, or a time series of them, with its place in space and the names of its labels.
 
-    path: a file (NRRD, NIfTI, MetaImage, DICOM, TIFF, VTK, GIPL, MRC), or a folder with a DICOM series. Several files, or
-        a folder of them, are masks, one for each structure: they become labels 1, 2, ... with the names of their files.
+    path: a file (NRRD, NIfTI, MetaImage, DICOM, TIFF, VTK, MGH, GIPL, MRC), or a folder with a DICOM series. Several
+        files, or a folder of them, are masks, one for each structure: they become labels 1, 2, ... with the names of their
+        files. So do masks of a dictionary, by name, each an array or another image that :func:`mesh` takes, or a file.
     space: the coordinates of the image, those of DICOM and ITK (LPS) or those of NIfTI (RAS).
     series_uid: which series, if the folder holds several.
     overlap: which of the masks that have a voxel gets it: the smallest (of equals the first), or the first in order.
-        Also of segments of a .seg.nrrd file.
+        Also of segments of a .seg.nrrd file, and of DICOM segmentations.
+    mask_threshold: above which probabilities, from 0 to 1, are inside: of masks, and of DICOM segmentations.
     resample_masks: whether masks on different grids are resampled to that with the smallest voxels, by nearest
         neighbour, and not refused.
     label_table: a text file with the names and colours of labels, if the image has none itself.
     spacing, origin, direction: in place of what the file says, for formats that do not know them (TIFF), as for
-        :class:`Image`. The last two are in the coordinates of space.
+        :class:`Image`. The last two are in the coordinates of space. Of a dictionary: of its arrays and files.
     data_files_anywhere: whether the header of an image (.nhdr, .mhd, .hdr) may name data files that are not in
         its folder or below. Only for headers that you trust.
 
     Raises FileNotFoundError; FileError (an OSError) for what cannot be read; ValueError for a spacing, origin or
     direction that is none.
     """
-    options = ["--space=" + space_of(space).lower(), f"--overlap={overlap}", *place_options(place_of(spacing, origin, direction))]
-    for option, value in (("series", series_uid), ("label-table", None if label_table is None else existing(label_table))):
-        if value is not None:
-            options.append(f"--{option}={value}")
+    place = place_of(spacing, origin, direction)
+    options = ["--space=" + space_of(space).lower(), f"--overlap={overlap}",
+               "--mask-threshold=" + number_text(mask_threshold)]
     if resample_masks:
         options.append("--resample-masks")
     if data_files_anywhere:
         options.append("--data-files-anywhere")
     with temporary_folder() as folder:
         image = os.path.join(folder, "image.nrrd")
-        program.run([*input_options(path), *options, "--save-image=" + image])
+        if isinstance(path, Mapping):
+            if label_table is not None or series_uid is not None:
+                raise ValueError("label_table, series_uid: not with a dictionary of masks, which have names")
+            masks, words, has_space = _mask_options(path, place, folder)
+            program.run([*masks, *options, "--save-image=" + image], words=words)
+            result = read_nrrd(image)
+            if not has_space:
+                del result.field_data["SPACE"]
+            return result
+        for option, value in (("series", series_uid), ("label-table", None if label_table is None else existing(label_table))):
+            if value is not None:
+                options.append(f"--{option}={value}")
+        program.run([*input_options(path), *options, *place_options(place), "--save-image=" + image])
         return read_nrrd(image)
+
+
+def _mask_options(masks: Mapping[str, Any], place: Mapping[str, Any], folder: str) -> Tuple[List[str], List[Tuple[str, str]], bool]:
+    """The options for masks, which are written to the folder; what messages call them; whether one has a space."""
+    if not masks:
+        raise ValueError("the dictionary of masks is empty")
+    table = os.path.join(folder, "names.csv")
+    options, words, rows, has_space = [], [(f"'{table}'", "the dictionary")], [], False
+    for number, (name, mask) in enumerate(masks.items(), 1):
+        if not isinstance(name, str) or not name.strip() or re.search(r"[\0-\x1f\x7f]", name):
+            raise ValueError(f"masks have names in one line of text, and none is called {name!r}")
+        image = single_image(mask, place)
+        path = os.path.join(folder, str(number), name.replace("/", "_")[:50] + ".nrrd")  # warnings show its name
+        os.mkdir(os.path.dirname(path))
+        write_nrrd(image, path, hidden_is_outside=False, space=image.space or "LPS")
+        has_space = has_space or image.space is not None
+        words.append((f"'{path}'", f"the mask {name!r}"))
+        rows.append('%d,"%s"\n' % (number, name.replace('"', '""')))
+        options.append("--input=" + path)
+    if len(masks) == 1:
+        options = ["--input=" + os.path.dirname(path)]  # a file that is alone is no mask, but that of a folder is
+    with open(table, "w", encoding="utf-8") as file:
+        file.writelines(rows)
+    return [*options, "--label-table=" + table], words, has_space
 
 
 def input_options(paths: Union[Path, Sequence[Path]]) -> List[str]:

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .fields import Fields, HasFields
 
+_SPACES = {"LPS": "left-posterior-superior", "RAS": "right-anterior-superior"}
 # NumPy has types for a part of it only.
 _MASKED: Any = numpy.ma
 
@@ -117,6 +118,12 @@ class Image(HasFields):
 
 def image_of(image: Any, geometry: Mapping[str, Any], times: Optional[ArrayLike]) -> Union[Image, List[str]]:
     """What mesh() takes for an image: an Image, or the path of a file, or those of masks."""
+    if isinstance(image, Mapping):
+        if times is not None:
+            raise ValueError("times: not with a dictionary of masks; give a list of dictionaries for frames")
+        from .files import read_segmentation
+        masks = {name: single_image(mask, geometry) for name, mask in image.items()}
+        return read_segmentation(masks, space="RAS" if any(mask.space == "RAS" for mask in masks.values()) else "LPS")
     if isinstance(image, (str, os.PathLike)):
         return [os.fsdecode(image)]
     if isinstance(image, (list, tuple)) and image and times is None and all(isinstance(one, (str, os.PathLike)) for one in image):
@@ -138,16 +145,19 @@ def image_of(image: Any, geometry: Mapping[str, Any], times: Optional[ArrayLike]
     if isinstance(image, (list, tuple)) and image and not isinstance(image[0], (int, float, list, tuple)):
         return _series(image, geometry, times)
     raise TypeError("image must be an array, a path, a voxplex.Image, an image of VTK, PyVista, ITK, SimpleITK or nibabel, or "
-                    f"a list of these (not empty), not {type(image).__name__}")
+                    f"a list or a dictionary of these (not empty), not {type(image).__name__}")
+
+
+def single_image(image: Any, geometry: Mapping[str, Any]) -> Image:
+    """What image_of() takes, read if it is in a file."""
+    from .files import read_segmentation
+    found = image_of(image, geometry, None)
+    return found if isinstance(found, Image) else read_segmentation(found, **geometry)
 
 
 def _series(frames: Sequence[Any], geometry: Mapping[str, Any], times: Optional[ArrayLike]) -> Image:
     """A time series of single images, which must lie at the same place."""
-    from .files import read_segmentation
-    images: List[Image] = []
-    for frame in frames:
-        image = image_of(frame, geometry, None)
-        images.append(image if isinstance(image, Image) else read_segmentation(image, **geometry))
+    images = [single_image(frame, geometry) for frame in frames]
     first = images[0]
     for number, image in enumerate(images):
         if image.is_series:
@@ -169,7 +179,7 @@ def _series(frames: Sequence[Any], geometry: Mapping[str, Any], times: Optional[
     return result
 
 
-def write_nrrd(image: Image, path: str, hidden_is_outside: bool) -> None:
+def write_nrrd(image: Image, path: str, hidden_is_outside: bool, space: str = "LPS") -> None:
     """Writes an image as the program reads it; masked voxels become NaN if they are outside of isosurfaces, else 0."""
     voxels = _stored(image.voxels)
     if image.mask is not None and hidden_is_outside and voxels.dtype.kind != "f":
@@ -179,7 +189,7 @@ def write_nrrd(image: Image, path: str, hidden_is_outside: bool) -> None:
                for column in (image.direction * image.spacing).T]
     kinds = ["domain"] * 3 + ["list"] * image.is_series
     header = ["NRRD0004", f"type: {voxels.dtype.name.replace('float32', 'float').replace('float64', 'double')}",
-              f"dimension: {voxels.ndim}", "space: left-posterior-superior",
+              f"dimension: {voxels.ndim}", "space: " + _SPACES[space],
               f"sizes: {' '.join(map(str, reversed(voxels.shape)))}",
               f"space directions: {' '.join(columns + ['none'] * image.is_series)}", f"kinds: {' '.join(kinds)}",
               f"space origin: ({','.join(map(repr, image.origin))})", "endian: little", "encoding: raw"]
@@ -205,7 +215,7 @@ def read_nrrd(path: str) -> Image:
     times = pairs.get("axis 3 index values")
     image = Image(voxels, spacing=spacing, origin=_point(pairs["space origin"]),
                   direction=numpy.array(columns).T / spacing, times=None if times is None else [float(t) for t in times.split()],
-                  space="LPS" if pairs["space"] == "left-posterior-superior" else "RAS")
+                  space="LPS" if pairs["space"] == _SPACES["LPS"] else "RAS")
     segments = [key[:-len("ID")] for key in pairs if re.fullmatch(r"Segment\d+_ID", key)]
     image.names = {int(pairs[segment + "LabelValue"]): pairs[segment + "Name"] for segment in segments}
     if segments:
@@ -331,9 +341,12 @@ def _from_itk(image: Any, times: Optional[ArrayLike]) -> Image:
 def _from_nibabel(image: Any, times: Optional[ArrayLike]) -> Image:
     """Of nibabel, whose arrays are indexed [i, j, k], and whose affine is in RAS."""
     voxels = numpy.asanyarray(image.dataobj).T
-    affine = numpy.diag((-1.0, -1.0, 1.0, 1.0)) @ image.affine
+    units = image.header.get_xyzt_units() if hasattr(image.header, "get_xyzt_units") else ("mm", "sec")
+    length, duration = ({"meter": 1e3, "micron": 1e-3, "msec": 1e-3, "usec": 1e-6}.get(unit, 1.0) for unit in units)
+    affine = numpy.diag((-length, -length, length, 1.0)) @ image.affine
     spacing = numpy.linalg.norm(affine[:3, :3], axis=0)
     if times is None and voxels.ndim == 4:
         step = float(image.header.get_zooms()[3]) or 1.0
-        times = [step * frame for frame in range(len(voxels))]
+        first = float(image.header["toffset"]) if "toffset" in image.header else 0.0
+        times = [duration * (first + step * frame) for frame in range(len(voxels))]
     return Image(voxels, spacing=spacing, origin=affine[:3, 3], direction=affine[:3, :3] / spacing, times=times, space="LPS")

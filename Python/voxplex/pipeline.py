@@ -178,5 +178,5 @@ def _add_property(name: str, key: str, words: Tuple[str, ...], is_flag: bool) ->
 
 
 for _key, _option in OPTIONS.items():
-    if _option.kind not in _LISTS:
+    if _option.property and _option.kind not in _LISTS:
         _add_property(_option.property, _key, _option.words, _option.kind == "flag")

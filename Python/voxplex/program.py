@@ -26,7 +26,7 @@ Progress = Callable[[float], object]
 _PROGRESS = re.compile(r"(\d+) %")
 _WARNING = "voxplex: warning: "
 _NAME = "voxplex: "
-_DOING = re.compile(r"cannot (?:(?:mesh|measure) '.*?'|(?:mesh|measure|read) the (?:image|mesh)): ", re.DOTALL)
+_DOING = re.compile(r"cannot (?:(?:mesh|measure|repair) '.*?'|(?:mesh|measure|read|repair) the (?:image|mesh)): ", re.DOTALL)
 
 
 def path() -> str:

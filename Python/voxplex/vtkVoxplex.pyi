@@ -5,7 +5,7 @@
 from typing import Any
 
 from vtkmodules.vtkCommonCore import vtkObject
-from vtkmodules.vtkCommonExecutionModel import vtkUnstructuredGridAlgorithm
+from vtkmodules.vtkCommonExecutionModel import vtkImageAlgorithm, vtkUnstructuredGridAlgorithm
 
 class vtkImageToSimplexMeshFilter(vtkUnstructuredGridAlgorithm):
     def __getattr__(self, name: str) -> Any: ...
@@ -14,6 +14,9 @@ class vtkImageToTetMeshFilter(vtkImageToSimplexMeshFilter): ...
 class vtkImageToPentatopeMeshFilter(vtkImageToSimplexMeshFilter): ...
 
 class vtkPentatopeMeshTimeSlice(vtkUnstructuredGridAlgorithm):
+    def __getattr__(self, name: str) -> Any: ...
+
+class vtkSegmentationRepair(vtkImageAlgorithm):
     def __getattr__(self, name: str) -> Any: ...
 
 class vtkSimplexMeshQuality(vtkUnstructuredGridAlgorithm):

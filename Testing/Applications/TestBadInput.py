@@ -29,6 +29,7 @@ class CommandLine(ProgramTestCase):
             ("'b.nrrd' is not understood", (*known, "--pin", "b.nrrd")),
             ("--isovalue: only for one image", (*known, "b.nrrd", "--isovalue", "1")),
             ("--overlap.*smallest", (*known, "--overlap", "largest")),
+            ("--mask-threshold: must lie between 0 and 1, not 1.5", (*known, "--mask-threshold", "1.5")),
             ("'--pin' is not understood without a flag", ("--", "--pin")),
             ("--input.* needs a value", ("--input",)),
             ("--balance.* needs a value", (*known, "--balance")),

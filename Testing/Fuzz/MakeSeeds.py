@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """MakeSeeds.py FOLDER: writes a folder of small files for each fuzzer, from which it starts."""
 import gzip
+import io
 import json
 import struct
 import sys
@@ -10,6 +11,8 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+import pydicom
+from pydicom.dataset import Dataset, FileMetaDataset
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "Applications"))
 import images
@@ -38,6 +41,15 @@ def detached(folder, data, **header_lines):
     return path.read_bytes().split(b"\n\n")[0] + b"\n"
 
 
+def overlapping_segments(folder):
+    """Of 3D Slicer, in two layers."""
+    keys = {f"Segment{n}_{key}": value for n, values in enumerate((("a", "Knee", 3, 0), ("b", "Bone", 1, 1), ("c", "Fat", 2, 1)))
+            for key, value in zip(("ID", "Name", "LabelValue", "Layer"), map(str, values))}
+    layers = np.stack([LABELS, np.where(np.arange(4) < 2, 1, 2).astype(np.uint8) + 0 * LABELS], axis=-1)
+    return Path(images.write_nrrd(folder / "i.seg.nrrd", layers, components=True, key_values=keys,
+                                  header_lines={"kinds": "list domain domain domain", "encoding": "raw"})).read_bytes()
+
+
 def vtk(binary):
     head = ("# vtk DataFile Version 3.0\nlabels\n%s\nDATASET STRUCTURED_POINTS\nDIMENSIONS 4 4 4\nSPACING 1 1 1\n"
             "ORIGIN 0 0 0\nPOINT_DATA 64\nSCALARS labels unsigned_char 1\nLOOKUP_TABLE default\n")
@@ -63,12 +75,56 @@ def gipl():
     return bytes(head) + LABELS.tobytes()
 
 
+def mgh():
+    head = bytearray(284)
+    struct.pack_into(">6i", head, 0, 1, 4, 4, 4, 1, 0)
+    struct.pack_into(">h12f", head, 28, 1, 1, 1, 1, 1, 0, 0, 0, 1, 0, 0, 0, 1)
+    return bytes(head) + LABELS.tobytes()
+
+
 def mrc():
     head = bytearray(1024)
     struct.pack_into("<4i", head, 0, 4, 4, 4, 0)
     struct.pack_into("<3i6f3i", head, 28, 4, 4, 4, 4, 4, 4, 90, 90, 90, 1, 2, 3)
     head[208:216] = b"MAP \x44\x44\0\0"
     return bytes(head) + LABELS.tobytes()
+
+
+def segmentation(kind):
+    """Of DICOM: two segments in three slices, or a label map of them."""
+    def item(**tags):
+        data = Dataset()
+        for name, value in tags.items():
+            setattr(data, name, value)
+        return data
+    bits = 1 if kind == "BINARY" else 8
+    frames = [(k, 0) for k in (0, 2)] if kind == "LABELMAP" else [(0, 1), (1, 1), (1, 2), (3, 2)]
+    groups = [item(PlanePositionSequence=[item(ImagePositionPatient=["0", "0", str(k)])]) for k, _ in frames]
+    for group, (_, number) in zip(groups, frames):
+        if number:
+            group.SegmentIdentificationSequence = [item(ReferencedSegmentNumber=number)]
+    pixels = np.stack([LABELS[k] + (LABELS[k] if number > 1 else 0) for k, number in frames])
+    packed = pixels * (25 if kind == "FRACTIONAL" else 1)
+    if bits == 1:
+        packed = np.packbits(pixels.ravel() > 0, bitorder="little")
+    data = item(
+        SOPClassUID="1.2.840.10008.5.1.4.1.1.66." + ("7" if kind == "LABELMAP" else "4"), SeriesInstanceUID="1.2", Rows=4,
+        Columns=4, SamplesPerPixel=1, PhotometricInterpretation="MONOCHROME2", NumberOfFrames=len(frames),
+        BitsAllocated=bits, BitsStored=bits, HighBit=bits - 1, PixelRepresentation=0, SegmentationType=kind, MaximumFractionalValue=100,
+        SegmentSequence=[item(SegmentNumber=n, SegmentLabel="Knee", RecommendedDisplayCIELabValue=[9, 9, 9])
+                         for n in (1, 2, 3)],
+        SharedFunctionalGroupsSequence=[item(
+            PlaneOrientationSequence=[item(ImageOrientationPatient=[1, 0, 0, 0, 1, 0])],
+            PixelMeasuresSequence=[item(PixelSpacing=[1, 1], SpacingBetweenSlices="1")])],
+        PerFrameFunctionalGroupsSequence=groups)
+    data.PixelData = packed.astype("u1").tobytes()
+    data["PixelData"].VR = "OB"
+    data.preamble, data.file_meta = bytes(128), FileMetaDataset()
+    data.file_meta.TransferSyntaxUID = "1.2.840.10008.1.2.1"
+    data.is_little_endian, data.is_implicit_VR = True, False
+    file = io.BytesIO()
+    pydicom.dcmwrite(file, data)
+    return file.getvalue()
 
 
 def vti():
@@ -107,6 +163,7 @@ def image_seeds(folder):
     return {
         "nrrd": [nrrd(), nrrd(header_lines={"encoding": "raw"}), nrrd(key_values={
                      "Segment0_ID": "a", "Segment0_Name": "Knee", "Segment0_LabelValue": "3", "Segment0_Color": "1 0 0"}),
+                 overlapping_segments(folder),
                  Path(images.write_sequence(folder / "i.nrrd", FRAMES)).read_bytes(),
                  Path(images.write_space_time_nrrd(folder / "i.nrrd", FRAMES)).read_bytes()],
         "nhdr": [detached(folder, "i.raw"), detached(folder, "LIST\ni.raw\ni.raw\ni.raw\ni.raw"),
@@ -117,8 +174,10 @@ def image_seeds(folder):
         "mha": [meta(), meta(FRAMES), meta(CompressedData="True")],
         "mhd": [head, head.replace(b"i.raw", b"LIST\ni.raw"), head.replace(b"i.raw", b"i%d.raw 1 4 1")],
         "vtk": [vtk(True), vtk(False)],
-        "dcm": [path.read_bytes() for path in images.write_dicom_series(folder, LABELS)[:1]],
+        "dcm": [*(path.read_bytes() for path in images.write_dicom_series(folder, LABELS)[:1]),
+                *(segmentation(kind) for kind in ("BINARY", "FRACTIONAL", "LABELMAP"))],
         "gipl": [gipl()],
+        "mgh": [mgh()],
         "mrc": [mrc()],
         "vti": [vti()],
         "tif": [tiff()],

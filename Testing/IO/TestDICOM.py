@@ -398,7 +398,6 @@ REFUSED = (
     ("places of other frames", write_frames, {"change": lambda data: data.PerFrameFunctionalGroupsSequence.pop()},
      "5 frames, and 4 items in its Per-frame Functional Groups"),
     ("dose without places", write_dose, {"offsets": (0, 1)}, "has 2 offsets for 5 frames"),
-    ("segmentation", write_frames, {"SOPClassUID": SEGMENTATION}, "DICOM segmentation object.*segimage2itkimage"),
     ("surfaces", write_slice, {"SOPClassUID": ROOT + "66.5", "PixelData": None}, "it is a DICOM surface segmentation"),
     ("structure set", write_slice, {"SOPClassUID": ROOT + "481.3", "PixelData": None},
      "it is a DICOM RT structure set"),

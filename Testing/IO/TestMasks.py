@@ -10,9 +10,13 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import (
+    vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSetCollection, vtkPolyData)
+from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 
 import images
+import meshfiles
 import voxplex
 from iotesting import FolderTestCase, table_of, warnings_of
 
@@ -28,6 +32,11 @@ SMALLEST, ORDER = 0, 1
 def voxels(image):
     """Indexed [k, j, i]."""
     return vtk_to_numpy(image.GetPointData().GetArray("Labels")).reshape(image.GetDimensions()[::-1])
+
+
+def places_of(image):
+    """Of the first and of the last voxel."""
+    return image.GetPoint(0), image.GetPoint(image.GetNumberOfPoints() - 1)
 
 
 def natural(name):
@@ -212,6 +221,197 @@ class Grids(MaskTestCase):
         nibabel.save(nibabel.Nifti1Image(array, affine), other)
         self.assertEqual(len(warnings_of(self.read_masks([plain, other]))), 2)  # overlap, and nothing is left
 
+    def test_in_memory(self):
+        """Each from a reader of its own: the same as from files."""
+        for properties in ({"Overlap": SMALLEST}, {"Overlap": ORDER, "Space": 1}):
+            paths = self.save()
+            files = self.read_masks(paths, ResampleMasks=True, **properties)
+            joiner = voxplex.vtkMasksToSegmentation()
+            joiner.ResampleMasksOn()
+            joiner.SetOverlap(properties["Overlap"])
+            readers = [voxplex.vtkSegmentationReader() for _ in paths]
+            for number, name in enumerate(self.GRIDS):
+                readers[number].SetFileName(paths[number])
+                readers[number].SetSpace(properties.get("Space", 0))
+                joiner.AddInputConnection(readers[number].GetOutputPort())
+                joiner.SetMaskName(number, name)
+            joiner.Update()
+            self.assertEqual(joiner.GetErrorMessage(), "")
+            ours, theirs = joiner.GetOutput(), files.GetOutput()
+            np.testing.assert_array_equal(voxels(ours), voxels(theirs))
+            np.testing.assert_allclose(places_of(ours), places_of(theirs), atol=1e-9)
+            self.assertEqual(table_of(ours), table_of(theirs))
+            self.assertEqual(meshfiles.texts_of(ours, "SPACE"), meshfiles.texts_of(theirs, "SPACE"))
+            self.assertEqual(warnings_of(joiner), [line.replace(f"{self.folder}/heart.nii.gz", "heart").replace("that of '", "that of mask '")
+                                                   for line in warnings_of(files)])
+        joiner.ResampleMasksOff()
+        joiner.Update()
+        self.assertRegex(joiner.GetErrorMessage(), "one grid, but mask 'liver' has the sizes 30 28 24, and mask 'heart' 41 37 44; "
+                                                   r"give ResampleMasksOn\(\)")
+        self.assertEqual(joiner.GetOutput().GetNumberOfPoints(), 0)
+
+
+class InMemory(MaskTestCase):
+    SHAPE = (6, 7, 8)
+    PLACE = {"spacing": (0.5, 1.0, 2.0), "origin": (10, -20, 30), "direction": Grids.TURN}
+    BOXES = [box(SHAPE, (0, 3), (0, 3), (0, 4)), box(SHAPE, (0, 3), (0, 3), (2, 6)), box(SHAPE, (1, 2), (1, 2), (1, 2)),
+             box(SHAPE, (0, 0), (0, 1), (0, 1))]
+
+    def image(self, array, name="mask", space=None, **place):
+        image = voxplex.Image(array, space=space, **{**self.PLACE, **place}).to_vtk()
+        image.GetPointData().GetScalars().SetName(name)
+        return image
+
+    def join(self, *images, names=(), **properties):
+        joiner = voxplex.vtkMasksToSegmentation()
+        for image in images:
+            joiner.AddInputData(image)
+        for number, name in names:
+            joiner.SetMaskName(number, name)
+        for name, value in properties.items():
+            getattr(joiner, "Set" + name)(value)
+        joiner.Update()
+        return joiner
+
+    def names(self, joiner):
+        return {label: name for label, (name, _) in table_of(joiner.GetOutput()).items()}
+
+    def test_rules(self):
+        for rule, word, lost in ((SMALLEST, "smallest", ""), (ORDER, "first", "mask 3")):
+            joiner = self.join(*map(self.image, self.BOXES), names=[(0, "liver"), (3, "none")], Overlap=rule)
+            self.assertEqual(joiner.GetErrorMessage(), "")
+            output = joiner.GetOutput()
+            self.assertEqual(output.GetPointData().GetScalars().GetDataTypeAsString(), "unsigned short")
+            np.testing.assert_array_equal(voxels(output), combined([one > 0 for one in self.BOXES], rule))
+            np.testing.assert_allclose(places_of(output), places_of(self.image(self.BOXES[0])))
+            self.assertEqual(self.names(joiner), {1: "liver"})
+            self.assertEqual(meshfiles.texts_of(output, "SPACE"), ["LPS"])
+            self.assertEqual(warnings_of(joiner), [
+                f"masks overlap in 19 voxels, which the {word} of them gets: liver and mask 2 (18), liver and mask 3 (1)",
+                "masks without a voxel: none", *([f"masks of which overlaps leave no voxel: {lost}"] if lost else [])])
+
+    def test_names(self):
+        """Of an array, unless another has it, too; before it the only label of the field data, with its colour."""
+        images = [self.image(one, name) for one, name in zip(self.BOXES[:3], ("liver", "Labels", "Labels"))]
+        self.assertEqual(self.names(self.join(*images)), {1: "liver"})
+        labelled = voxplex.Image(self.BOXES[2], names={1: "Spleen"}, **self.PLACE)
+        labelled.field_data["LabelColors"] = np.array([[1.0, 0.0, 0.0]])
+        images[2] = labelled.to_vtk()
+        joiner = self.join(*images)
+        self.assertEqual(table_of(joiner.GetOutput()), {1: ("liver", None), 3: ("Spleen", (255, 0, 0))})
+        joiner.SetMaskName(2, "spleen")
+        joiner.Update()
+        self.assertEqual(table_of(joiner.GetOutput())[3], ("spleen", (255, 0, 0)))
+        joiner.ClearMaskNames()
+        joiner.Update()
+        self.assertEqual(self.names(joiner)[3], "Spleen")
+        joiner.SetMaskName(3, "other")
+        joiner.Update()
+        self.assertRegex(joiner.GetErrorMessage(), r"SetMaskName\(3, 'other'\) names none of the 3 masks")
+
+    def test_blocks(self):
+        """Nested, empty, and of a collection."""
+        images = [self.image(one) for one in self.BOXES[:3]]
+        inner, outer = vtkMultiBlockDataSet(), vtkMultiBlockDataSet()
+        for block, (number, data, name) in itertools.chain(
+                zip(itertools.repeat(inner), ((0, images[1], "kidney"), (1, images[2], "cyst"))),
+                zip(itertools.repeat(outer), ((0, images[0], "liver"), (1, None, "nothing"), (2, inner, "more")))):
+            block.SetBlock(number, data)
+            block.GetMetaData(number).Set(vtkCompositeDataSet.NAME(), name)
+        collection = vtkPartitionedDataSetCollection()
+        for number, (image, name) in enumerate(zip(images, ("liver", "kidney", "cyst"))):
+            collection.SetPartition(number, 0, image)
+            collection.GetMetaData(number).Set(vtkCompositeDataSet.NAME(), name)
+        for data in (outer, collection):
+            joiner = self.join(data)
+            np.testing.assert_array_equal(voxels(joiner.GetOutput()), combined([one > 0 for one in self.BOXES[:3]], SMALLEST))
+            self.assertEqual(self.names(joiner), {1: "liver", 2: "kidney", 3: "cyst"})
+        both = self.join(self.image(self.BOXES[0], "first"), outer)
+        self.assertEqual(both.GetOutput().GetPointData().GetScalars().GetRange(), (0, 4))
+        outer.SetBlock(0, vtkPolyData())
+        self.assertRegex(self.join(outer).GetErrorMessage(), "block 'liver' is a vtkPolyData; masks are vtkImageData")
+
+    def test_threshold(self):
+        probabilities = self.image(np.where(self.BOXES[0] > 0, 0.7, 0.3))
+        for threshold, count in ((0.5, 36), (0.7, 0), (0.2, 6 * 7 * 8)):
+            joiner = self.join(probabilities, MaskThreshold=threshold)
+            self.assertEqual(np.count_nonzero(voxels(joiner.GetOutput())), count)
+
+    def test_spaces(self):
+        """Masks in RAS and LPS lie at the same place; the output is in the space of the first."""
+        flip = np.diag((-1.0, -1.0, 1.0))
+        ras = self.image(self.BOXES[1], space="RAS", origin=flip @ self.PLACE["origin"], direction=flip @ self.PLACE["direction"])
+        lps = self.image(self.BOXES[0], space="LPS")
+        for first, second, space in ((ras, lps, "RAS"), (lps, ras, "LPS")):
+            joiner = self.join(first, second)
+            self.assertEqual(joiner.GetErrorMessage(), "")
+            self.assertEqual(meshfiles.texts_of(joiner.GetOutput(), "SPACE"), [space])
+            np.testing.assert_allclose(places_of(joiner.GetOutput()), places_of(first))
+
+    def test_cells_and_extents(self):
+        """Labels of cells, and an extent that does not begin with 0."""
+        points = self.image(self.BOXES[0])
+        moved = self.image(self.BOXES[1])
+        first = np.array((4, -3, 2))
+        moved.SetOrigin(np.array(self.PLACE["origin"]) - self.PLACE["direction"] @ (first * self.PLACE["spacing"]))
+        moved.SetExtent(*np.ravel([(a, a + n - 1) for a, n in zip(first, self.SHAPE[::-1])]).tolist())
+        cells = self.image(np.zeros(np.array(self.SHAPE) + 1, np.uint8))
+        cells.SetOrigin(np.array(self.PLACE["origin"]) - self.PLACE["direction"] @ (0.5 * np.array(self.PLACE["spacing"])))
+        cells.GetPointData().Initialize()
+        cells.GetCellData().SetScalars(numpy_to_vtk(self.BOXES[2].ravel(), deep=True))
+        joiner = self.join(points, moved, cells)
+        self.assertEqual(joiner.GetErrorMessage(), "")
+        np.testing.assert_array_equal(voxels(joiner.GetOutput()), combined([one > 0 for one in self.BOXES[:3]], SMALLEST))
+
+    def test_refused(self):
+        mask = self.image(self.BOXES[0])
+        for pattern, other in (("mask 2 is no mask.* the value 2", self.image(self.BOXES[0] * 2.0)),
+                               ("mask 2 is no mask.* one slice", self.image(self.BOXES[0][:1])),
+                               ("mask 2: it has no array", vtkImageData())):
+            joiner = self.join(mask, other)
+            self.assertRegex(joiner.GetErrorMessage(), pattern)
+            self.assertEqual(joiner.GetOutput().GetNumberOfPoints(), 0)
+        self.assertRegex(self.join(vtkMultiBlockDataSet()).GetErrorMessage(), "there is no mask")
+        joiner = self.join(mask, self.image(self.BOXES[1]))
+        self.assertEqual((joiner.GetErrorMessage(), joiner.GetOutput().GetNumberOfPoints()), ("", mask.GetNumberOfPoints()))
+
+    def test_series(self):
+        """A mask in time beside one that stays: at each time the union of then."""
+        frames = images.moving_balls(4, 16, 4.0, labels=(1, 1))
+        reader = self.reader(images.write_nrrd(self.folder / "frames.nrrd", frames))
+        joiner = voxplex.vtkMasksToSegmentation()
+        joiner.AddInputConnection(reader.GetOutputPort())
+        joiner.AddInputData(voxplex.Image(box((16, 16, 16), (0, 16), (0, 16), (0, 3))).to_vtk())
+        for time in (0, 2, 1, 3):
+            joiner.UpdateTimeStep(time)
+            np.testing.assert_array_equal(voxels(joiner.GetOutput()) == 1, frames[time] > 0)
+        mesher = voxplex.vtkImageToPentatopeMeshFilter()
+        mesher.SetInputConnection(joiner.GetOutputPort())
+        mesher.SetDelta(3.0)
+        mesher.Update()
+        self.assertEqual(mesher.GetErrorMessage(), "")
+        self.assertEqual(mesher.GetOutput().GetPointData().GetArray("Time").GetRange(), (0, 3))
+
+    def test_pipeline(self):
+        """A change before the filter reaches the mesh after it."""
+        shape = (20, 20, 30)
+        source = vtkTrivialProducer()
+        source.SetOutput(self.image(box(shape, (4, 16), (4, 16), (4, 15)), spacing=(1, 1, 1)))
+        joiner = voxplex.vtkMasksToSegmentation()
+        joiner.AddInputConnection(source.GetOutputPort())
+        joiner.AddInputData(self.image(box(shape, (4, 16), (4, 16), (15, 26)), spacing=(1, 1, 1)))
+        joiner.SetMaskName(1, "Bone")
+        mesher = voxplex.vtkImageToTetMeshFilter()
+        mesher.SetInputConnection(joiner.GetOutputPort())
+        mesher.SetDelta(3.0)
+        mesher.Update()
+        self.assertEqual(mesher.GetErrorMessage(), "")
+        self.assertEqual(mesher.GetOutput().GetCellData().GetArray("Label").GetRange(), (1, 2))
+        self.assertEqual(table_of(mesher.GetOutput()), {2: ("Bone", None)})
+        source.SetOutput(self.image(np.zeros(shape, np.uint8), spacing=(1, 1, 1)))
+        mesher.Update()
+        self.assertEqual(mesher.GetOutput().GetCellData().GetArray("Label").GetRange(), (2, 2))
+
 
 class Rules(MaskTestCase):
     SHAPE = (6, 7, 8)
@@ -255,6 +455,8 @@ class Rules(MaskTestCase):
         expected[0, 0, 0] = 3
         np.testing.assert_array_equal(voxels(reader.GetOutput()), expected)
         self.assertEqual(warnings_of(reader), ["masks with several values, all of which are inside: b"])
+        reader = self.read_masks(self.write(a=probabilities, b=several), MaskThreshold=0.75)
+        np.testing.assert_array_equal(voxels(reader.GetOutput()), (probabilities > 0.75) + 2 * (several != 0))
         for value in (2.0, -0.5, np.nan):
             probabilities[0, 0, 0] = value
             self.masks_refused("'.*/a.nrrd' is no mask, .* has the value .*probabilities from 0 to 1",

@@ -41,7 +41,7 @@ def found(path):
     """What the sanitizers say of reading a file; None if they say nothing."""
     memory = os.memfd_create("voxels")
     try:
-        done = subprocess.run([PROGRAM, path, "", "0", "0"], capture_output=True, timeout=TIMEOUT,
+        done = subprocess.run([PROGRAM, path, "", "0", "0", "0.5"], capture_output=True, timeout=TIMEOUT,
                               preexec_fn=lambda: os.dup2(memory, 3), pass_fds=[3])
     except subprocess.TimeoutExpired:
         return "hangs for %d s" % TIMEOUT

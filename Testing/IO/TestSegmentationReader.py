@@ -202,6 +202,11 @@ class Errors(FolderTestCase):
         self.refused("empty.nrrd': the file is empty", self.folder)
         (self.folder / "texts").mkdir()
         (self.folder / "texts" / "a.txt").write_text("hello")
+        for name in ("zarr.json", ".zgroup"):
+            (self.folder / "a.zarr").mkdir(exist_ok=True)
+            (self.folder / "a.zarr" / name).write_text("{}")
+            self.refused("it is a Zarr folder: open the array of one resolution in Python", self.folder / "a.zarr")
+            (self.folder / "a.zarr" / name).unlink()
         self.refused("the folder holds no DICOM images, and no files that are named as masks", self.folder / "texts")
         self.refused("^no file name is set$", None)
         self.refused("^no file name is set$", "")
@@ -264,6 +269,7 @@ class Execution(FolderTestCase):
     def test_print(self):
         text = str(self.reader(images.write_nrrd(self.folder / "i.nrrd", images.ball(8, 3.0))))
         for line in ("FileName: .*i.nrrd", "SeriesUID: .none", "LabelTableFileName: .none", "FileNames: 0", "Overlap: smallest",
+                     "MaskThreshold: 0.5",
                      "ResampleMasks: off", "Space: LPS", "Spacing: 0 0 0",
                      "Direction: 0 0 0 0 0 0 0 0 0", "DataFilesAnywhere: off", "Frames: 1"):
             self.assertRegex(text, line)

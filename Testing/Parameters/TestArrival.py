@@ -41,6 +41,7 @@ PENTATOPES = (
 # What changes no mesh of one thread, and what other tests give: images of sizes and times of frames.
 ELSEWHERE = {"OptimisationTimeLimit", "NumberOfThreads", "Reproducible", "FineGrained", "ContentionManager",
              "LoadBalancer", "PinThreads", "MemoryLimit", "ElementSizeData", "FrameTime"}
+ELSEWHERE |= {p["property"] for p in TABLE if p["of_repair"]}  # Testing/Python/TestRepair.py
 
 
 def text_of(values, between):

@@ -43,8 +43,16 @@ class ParaView(unittest.TestCase):
 
     def test_all_are_there(self):
         for name, (_, dimension) in self.PROXIES.items():
-            wanted = {p["property"] for p in BY_PROPERTY.values() if p["dimension"] in (0, dimension)}
+            wanted = {p["property"] for p in BY_PROPERTY.values() if p["dimension"] in (0, dimension) and not p["of_repair"]}
             self.assertEqual(wanted - set(properties(name)) - {"MemoryLimit"}, set(), name)
+
+    def test_repair(self):
+        """Its proxy is written by hand."""
+        root = ElementTree.parse(XML / "SegmentationRepair.xml").getroot()
+        found = {p.get("command"): p for p in root.iter() if p.get("command", "").startswith("Set")}
+        for parameter in (p for p in TABLE if p["of_repair"]):
+            prop = found["Set" + parameter["property"]]
+            self.assertEqual(prop.get("default_values", ""), "" if parameter["kind"] == "label-sizes" else "0")
 
     def test_ranges(self):
         checked = 0
@@ -77,7 +85,7 @@ class ParaView(unittest.TestCase):
 class Setters(unittest.TestCase):
     def test_every_parameter_reaches_its_property(self):
         """The compiler finds out whether the filter has the method."""
-        dimensions = {"Filter": 0, "Tets": 3, "Pentatopes": 4}
+        dimensions = {"Filter": 0, "Tets": 3, "Pentatopes": 4, "Repair": 0}
         text = subprocess.run([os.environ["VOXPLEX_PARAMETERS"], "setters"], check=True, capture_output=True, text=True).stdout
         found = re.findall(r'\{ "([\w-]+)", To\(&(\w+)::Set(\w+)\) \}', text)
         self.assertEqual({name: (prop, dimensions[kind]) for name, kind, prop in found},

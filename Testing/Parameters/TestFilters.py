@@ -29,7 +29,8 @@ def message_about(parameter, value, force):
     if parameter["dimension"] == 4:  # the components are frames
         image.GetPointData().SetScalars(numpy_to_vtk(numpy.repeat(labels.reshape(-1, 1), 2, axis=1), deep=True))
     mesher.SetInputData(image)
-    mesher.SetForce(force)
+    if not parameter["of_repair"]:
+        mesher.SetForce(force)
     if parameter["property"] in ("Isovalue", "InsideLabel", "IsosurfaceSmoothingSigma"):
         mesher.SetInputModeToIsosurface()
         mesher.SetIsovalue(0.03)  # smoothing leaves little

@@ -6,7 +6,7 @@ import os
 import subprocess
 from pathlib import Path
 
-from voxplex import vtkImageToPentatopeMeshFilter, vtkImageToTetMeshFilter
+from voxplex import vtkImageToPentatopeMeshFilter, vtkImageToTetMeshFilter, vtkSegmentationRepair
 
 SOURCE = Path(os.environ["VOXPLEX_SOURCE"])
 LISTS = ("labels", "label-sizes", "interface-sizes", "image", "times")
@@ -15,6 +15,8 @@ BY_PROPERTY = {p["property"]: p for p in TABLE if p["kind"] not in LISTS}
 
 
 def make_filter(parameter):
+    if parameter.get("of_repair"):
+        return vtkSegmentationRepair()
     return vtkImageToPentatopeMeshFilter() if parameter["dimension"] == 4 else vtkImageToTetMeshFilter()
 
 

@@ -180,6 +180,81 @@ class Files(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "size_image must be one image"):
             voxplex.mesh(self.labels, 2.0, size_image=paths)
 
+    def test_dicom_segmentation(self):
+        file = Path(__file__).resolve().parents[1] / "IO" / "highdicom" / "fractional.dcm"
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # what overlaps
+            mesh = voxplex.mesh(file, 2.0)
+            image = voxplex.read_segmentation(file, mask_threshold=0.7)
+        self.assertEqual(mesh.names, {1: "Liver", 2: "Rib, left", 3: "Tumour"})
+        self.assertEqual((image.names, set(numpy.unique(image.voxels))), ({1: "Liver", 2: "Rib, left"}, {0, 1, 2}))
+        with self.assertRaisesRegex(ValueError, "mask_threshold: must lie between 0 and 1, not 2"):
+            voxplex.read_segmentation(file, mask_threshold=2)
+
+    def test_masks_in_memory(self):
+        """By name: arrays, images, masked and real ones, and files."""
+        whole, part, empty = self.labels > 0, self.labels == 9, self.labels < 0
+        both = numpy.where(part, 2, whole)
+        words = ["masks overlap in 288 voxels, which the smallest of them gets: the knee _ left and femur (288)",
+                 "masks without a voxel: none"]
+        masks = {"the knee / left": whole, "femur": 0.5 + 0.4 * part, "none": empty}
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            image = voxplex.read_segmentation(masks, spacing=SPACING, origin=ORIGIN, direction=DIRECTION)
+        self.assertEqual([str(warning.message) for warning in told], words)
+        numpy.testing.assert_array_equal(image.voxels, both)
+        numpy.testing.assert_allclose(image.origin, ORIGIN)
+        numpy.testing.assert_allclose(image.direction * image.spacing, DIRECTION * SPACING)
+        self.assertEqual((image.names, image.space), ({1: "the knee / left", 2: "femur"}, None))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self.assertEqual(voxplex.read_segmentation(masks, overlap="order").names, {1: "the knee / left"})
+            mesh = voxplex.mesh(masks, 2.0, spacing=SPACING, labels=["femur"])
+            self.assertEqual((mesh.names[2], set(mesh.labels)), ("femur", {2}))
+            self.assertEqual(voxplex.quality(mesh, masks, spacing=SPACING, labels=["femur"])["image"]["lost_labels"], [])
+            place = {"spacing": SPACING, "origin": ORIGIN, "direction": DIRECTION}
+            mixed = {'a, "b"': voxplex.Image(numpy.ma.array(whole, mask=self.labels == 5), **place), "file": self.image}
+            image = voxplex.read_segmentation(mixed)
+        numpy.testing.assert_array_equal(image.voxels, numpy.where(part, 1, 2 * whole))
+        self.assertEqual((image.names, image.space), ({1: 'a, "b"', 2: "file"}, "LPS"))
+        one = voxplex.read_segmentation({"only": self.labels})  # a mask, too
+        self.assertEqual((one.names, set(one.voxels.flat)), ({1: "only"}, {0, 1}))
+        frames = voxplex.mesh([{"ball": frame} for frame in beating()], 2.0)
+        self.assertEqual((frames.cells.shape[1], frames.names), (5, {1: "ball"}))
+
+    def test_masks_on_other_grids(self):
+        fine, coarse = numpy.ones((6, 8, 10), bool), numpy.ones((2, 4, 5), bool)
+        masks = {"fine": voxplex.Image(fine), "coarse": voxplex.Image(coarse, spacing=(2, 2, 2), space="RAS", origin=(-9, -7, 0),
+                                                                      direction=numpy.diag((1, 1, 1)))}
+        with self.assertRaisesRegex(voxplex.FileError, "one grid, but the mask 'fine' has the sizes 10 8 6, and the mask 'coarse' 5 4 2; "
+                                                       "give read_segmentation.*resample_masks=True"):
+            voxplex.read_segmentation(masks)
+        with self.assertWarnsRegex(voxplex.MeshingWarning, "fine and coarse"):
+            image = voxplex.read_segmentation(masks, resample_masks=True, overlap="smallest", space="RAS")
+        expected = numpy.ones((6, 8, 10))
+        k, j, i = numpy.indices(expected.shape)
+        # The coarse one, whose first voxel is at (9, 7, 0) in LPS, has axes against those of the fine one.
+        expected[(k + 0.5) // 2 < 2] = 2
+        numpy.testing.assert_array_equal(image.voxels, expected)
+        self.assertEqual(image.space, "RAS")
+
+    def test_masks_refused(self):
+        mask = self.labels > 0
+        for masks, error, words in (
+                ({}, ValueError, "dictionary of masks is empty"), ({1: mask}, ValueError, "none is called 1"),
+                ({"a\nb": mask}, ValueError, "in one line"), ({"a": mask, "b": mask[1:]}, voxplex.FileError, "the mask 'b' 20 16 11"),
+                ({"a": mask, "b": beating()}, voxplex.FileError, "the mask 'b' is no mask.* 4 time frames"),
+                ({"a": mask, "b": mask * 2.5}, voxplex.FileError, "the mask 'b' is no mask.* 2.5, and the real numbers"),
+                ({"a": "none.nrrd"}, FileNotFoundError, "none.nrrd"), ({"a": None}, TypeError, "dictionary of these")):
+            with self.subTest(words), self.assertRaisesRegex(error, words):
+                voxplex.read_segmentation(masks)
+        with self.assertRaisesRegex(ValueError, "label_table, series_uid: not with"):
+            voxplex.read_segmentation({"a": mask}, label_table="names.csv")
+        with self.assertRaisesRegex(ValueError, "times: not with a dictionary"):
+            voxplex.mesh({"a": mask}, times=(0, 1))
+        with self.assertRaisesRegex(ValueError, "spacing: only for arrays"):
+            voxplex.mesh({"a": voxplex.Image(mask)}, spacing=(1, 1, 1))
+
     def test_read_series(self):
         image = voxplex.read_segmentation(self.series)
         numpy.testing.assert_array_equal(image.voxels, beating())

@@ -314,14 +314,22 @@ cli::LabelSelection Arguments::Selection() const
   {
     selection.Labels.push_back(LabelNumber("labels", text));
   }
-  for (const std::string& text : Items(this->Text("labelSizes")))
+  const auto sizes = [this](const char* name, const std::string& flag, bool isSigned)
   {
-    const cli::LabelSizeText parsed = cli::ParseLabelSize("labelsizes", text);
-    if (!selection.Sizes.emplace(LabelNumber("labelsizes", parsed.Label), parsed.Size).second)
+    std::map<std::int64_t, double> found;
+    for (const std::string& text : Items(this->Text(name)))
     {
-      throw UsageError("--labelsizes: label " + parsed.Label + " is given twice");
+      const cli::LabelSizeText parsed = cli::ParseLabelSize(flag, text, isSigned);
+      if (!found.emplace(LabelNumber(flag, parsed.Label), parsed.Size).second)
+      {
+        throw UsageError("--" + flag + ": label " + parsed.Label + " is given twice");
+      }
     }
-  }
+    return found;
+  };
+  selection.Sizes = sizes("labelSizes", "labelsizes", false);
+  selection.Thicknesses = sizes("minimumThickness", "minimumthickness", false);
+  selection.Shells = sizes("shells", "shells", true);
   for (const std::string& text : Items(this->Text("interfaceSizes")))
   {
     const cli::InterfaceSizeText parsed = cli::ParseInterfaceSize("interfacesizes", text);

@@ -19,6 +19,7 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSegmentationReader.h>
+#include <vtkSegmentationRepair.h>
 #include <vtkSimplexMeshQuality.h>
 #include <vtkSimplexMeshWriter.h>
 #include <vtkUnstructuredGrid.h>
@@ -32,7 +33,9 @@ namespace
 
 constexpr ProgressReport::Stage Reading{ "vtkSegmentationReader", "Reading the label map", 0.0,
   0.05 };
-constexpr ProgressReport::Stage Meshing{ "vtkImageToTetMeshFilter", "Meshing", 0.05, 0.95 };
+constexpr ProgressReport::Stage Repairing{ "vtkSegmentationRepair", "Repairing the label map", 0.05,
+  0.1 };
+constexpr ProgressReport::Stage Meshing{ "vtkImageToTetMeshFilter", "Meshing", 0.1, 0.95 };
 constexpr ProgressReport::Stage Measuring{ "vtkSimplexMeshQuality", "Comparing with the label map",
   0.95, 0.98 };
 constexpr ProgressReport::Stage Writing{ "vtkSimplexMeshWriter", "Writing the mesh", 0.98, 1.0 };
@@ -89,6 +92,32 @@ void Execute(vtkAlgorithm* filter, ProgressReport& report)
   Silence(filter);
   cli::Execute(
     filter, [&report](double fraction, const std::string&) { return report.Show(fraction); });
+}
+
+/** Null if nothing is to be repaired or checked. */
+vtkSmartPointer<vtkSegmentationRepair> Repair(
+  const Arguments& arguments, vtkAlgorithmOutput* labels, ProgressReport& report)
+{
+  const auto filter =
+    cli::MakeRepair(arguments.MeshingValues(), arguments.Selection(), UserInterface::SlicerCommand);
+  if (!filter)
+  {
+    return nullptr;
+  }
+  if (arguments.IsSet("isosurface"))
+  {
+    throw cli::UsageError("grey-value images have no labels to repair or check; leave the "
+                          "parameters of Repair of segmentations out, or --isosurface");
+  }
+  report.Start(Repairing);
+  filter->SetInputConnection(labels);
+  Execute(filter, report);
+  if (!filter->GetErrorMessage().empty())
+  {
+    throw cli::RunError(
+      "cannot repair '" + arguments.Text("inputLabels") + "': " + filter->GetErrorMessage());
+  }
+  return filter;
 }
 
 vtkSmartPointer<vtkImageToTetMeshFilter> Mesh(
@@ -172,17 +201,20 @@ void RunJob(const Arguments& arguments)
   report.Start(Reading);
   const auto reader = Read(arguments);
 
-  report.Start(Meshing);
-  const auto filter = Mesh(arguments, reader->GetOutputPort(), report);
+  const auto repair = Repair(arguments, reader->GetOutputPort(), report);
+  vtkAlgorithmOutput* const labels = repair ? repair->GetOutputPort() : reader->GetOutputPort();
 
-  const auto comparison = Compare(arguments, reader->GetOutputPort(), filter->GetOutput(), report);
+  report.Start(Meshing);
+  const auto filter = Mesh(arguments, labels, report);
+
+  const auto comparison = Compare(arguments, labels, filter->GetOutput(), report);
 
   report.Start(Writing);
   cli::WriteMeshFiles(filter, meshPath, surfacesPath, files);
   WriteResults(filter->GetStatistics(), comparison, arguments.ReturnFile, files);
   report.Finish();
   cli::CommitFiles(files);
-  PrintResults(filter, comparison);
+  PrintResults(filter, comparison, repair ? repair->GetReport() : "");
 }
 
 } // namespace voxplex::slicer

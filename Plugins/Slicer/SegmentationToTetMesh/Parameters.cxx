@@ -223,7 +223,7 @@ const std::vector<ParameterGroup>& ParameterGroups()
     using Group = voxplex::ParameterGroup;
     std::vector<ParameterGroup> all{ Files() };
     for (const Group group : { Group::GreyValues, Group::Sampling, Group::Labels, Group::Shapes,
-           Group::Interfaces, Group::Quality, Group::Running })
+           Group::Interfaces, Group::Quality, Group::Repair, Group::Running })
     {
       all.push_back(FromTable(group));
     }

@@ -77,8 +77,8 @@ void WriteResults(vtkMeshingStatistics* statistics, const std::optional<Comparis
     });
 }
 
-void PrintResults(
-  const vtkImageToTetMeshFilter* filter, const std::optional<Comparison>& comparison)
+void PrintResults(const vtkImageToTetMeshFilter* filter,
+  const std::optional<Comparison>& comparison, const std::string& repair)
 {
   const vtkMeshingStatistics* const statistics = filter->GetStatistics();
   std::cout << statistics->GetNumberOfElements() << " tetrahedra with "
@@ -96,6 +96,7 @@ void PrintResults(
               << " non-manifold edges, volumes of labels off by up to "
               << 100.0 * comparison->VolumeError << " %\n";
   }
+  std::cout << repair;
   for (const std::string& warning : cli::WarningsOf(filter))
   {
     Warn(warning);

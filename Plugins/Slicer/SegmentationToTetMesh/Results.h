@@ -43,9 +43,9 @@ Comparison CompareWithImage(vtkSimplexMeshQuality* filter);
 void WriteResults(vtkMeshingStatistics* statistics, const std::optional<Comparison>& comparison,
   const std::string& path, const io::WholeFiles& files);
 
-/** Lines for people, on standard output; warnings of the filter on standard error. */
-void PrintResults(
-  const vtkImageToTetMeshFilter* filter, const std::optional<Comparison>& comparison);
+/** Lines for people, on standard output, `repair` among them; warnings of the filter on standard error. */
+void PrintResults(const vtkImageToTetMeshFilter* filter,
+  const std::optional<Comparison>& comparison, const std::string& repair);
 
 /** A line on standard error. */
 void Warn(const std::string& warning);

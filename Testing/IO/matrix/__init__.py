@@ -4,9 +4,9 @@
 
 A module for each format has its ROWS. rows.py says what a row is, images.py has voxels and axes, reading.py reads.
 """
-from . import faults, gipl, metaimage, mrc, nifti, nrrd, vtkfiles
+from . import faults, gipl, metaimage, mgh, mrc, nifti, nrrd, vtkfiles
 
-_MODULES = nrrd, nifti, metaimage, gipl, mrc, vtkfiles
+_MODULES = nrrd, nifti, metaimage, mgh, gipl, mrc, vtkfiles
 
 SOUND = [sound for module in _MODULES for sound in module.SOUND]
 ROWS = [row for module in _MODULES for row in module.ROWS] + faults.rows(SOUND)

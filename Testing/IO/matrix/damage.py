@@ -145,6 +145,8 @@ def _claims(format_name, data):
     if format_name == "VTK XML":
         extents = _numbers_after(rb"WholeExtent=\"", data)
         return [[high - low + 1 for low, high in zip(e[::2], e[1::2])] for e in extents]
+    if format_name == "MGH":
+        return [struct.unpack_from(">4i", data, 4)]
     if format_name == "GIPL":
         return [[size for size in struct.unpack_from(">4H", data) if size]]
     if format_name == "MRC":

@@ -3,11 +3,12 @@
 """The plugin in pvbatch: meshes the AAL atlas through the proxies, and small images with each option."""
 from voxplex_testing import *
 
-from paraview.simple import MeshQuality, XMLImageDataReader
+from paraview.simple import GroupDatasets, MeshQuality, XMLImageDataReader
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_STRING
 
-FILTERS = ("VoxplexTetMesh", "VoxplexPentatopeMesh", "VoxplexTimeSlice", "VoxplexSimplexMeshQuality")
+FILTERS = ("VoxplexMasksToSegmentation", "VoxplexTetMesh", "VoxplexPentatopeMesh", "VoxplexTimeSlice", "VoxplexSegmentationRepair",
+           "VoxplexSimplexMeshQuality")
 
 
 def test_documentation():
@@ -81,6 +82,71 @@ def test_place_of_a_file():
     reader.Direction = [0.0] * 9
     reader.UpdatePipeline()
     check_equal(reader.GetDataInformation().GetBounds(), own)
+
+
+def test_repair():
+    """Rows of labels and lengths, and the table."""
+    def labels_of_voxels():
+        repair.UpdatePipeline()
+        return set(numbers(servermanager.Fetch(repair).GetPointData().GetScalars()))
+
+    hole = make_image(lambda i, j, k: 0 if (i, j, k) == (5, 8, 8) else two_balls(i, j, k))
+    reader = XMLImageDataReader(FileName=[write_image(hole, "hole.vti")])
+    repair = RepairSegmentation(Input=reader, FillHoles=1, Shells=[3, 1.5, 7, -1], FirstShellLabel=9, MinimumThickness=[3, 2])
+    check_equal(labels_of_voxels(), {0, 3, 7, 9, 10}, "labels and shells")
+    table = servermanager.Fetch(repair, idx=1)
+    rows = [(table.GetColumnByName("What").GetValue(i), table.GetColumnByName("Label").GetValue(i)) for i in range(4)]
+    check_equal(rows, [("fill-holes", 3), ("min-thickness", 3), ("shell", 3), ("shell", 7)])
+    mesher = MeshSegmentationTetrahedralize(Input=repair, Delta=1.0)
+    mesher.UpdatePipeline()
+    check_equal(labels_of(mesher), {3, 7, 9, 10}, "labels of the mesh")
+    repair.Shells = []
+    check_equal(labels_of_voxels(), {0, 3, 7}, "rows taken away")
+
+
+def test_masks():
+    """Several inputs, a group of them, and a folder of files."""
+    masks = {"liver": lambda i, j, k: i < 9, "heart": lambda i, j, k: i > 5, "cyst": lambda i, j, k: i == j == k == 2}
+    os.makedirs(output_path("masks"), exist_ok=True)
+    paths = [write_image(make_image(mask, name="Scalars"), f"masks/{name}.vti") for name, mask in masks.items()]
+    readers = [XMLImageDataReader(FileName=[path]) for path in paths]
+    several = MasksToSegmentation(Input=readers, MaskNames=list(masks))
+    # The heart, with 10 slices, is larger than the liver, with 9.
+    expected = {name: make_image(mask).GetPointData().GetScalars() for name, mask in masks.items()}
+    labels = [3 if cyst else 1 if liver else 2 for liver, heart, cyst in zip(*map(numbers, expected.values()))]
+    group = MasksToSegmentation(Input=GroupDatasets(Input=readers))
+    folder = SegmentationReaderVoxplex(FileName=output_path("masks"))
+    for source, names in ((several, list(masks)), (group, None), (folder, sorted(masks))):
+        source.UpdatePipeline()
+        image = servermanager.Fetch(source)
+        order = [sorted(masks).index(name) + 1 for name in masks] if source is folder else [1, 2, 3]
+        check(numbers(image.GetPointData().GetArray("Labels")) == [order[label - 1] for label in labels], "labels of", names)
+        if names:
+            array = image.GetFieldData().GetAbstractArray("LabelNames")
+            check_equal([array.GetValue(n) for n in range(array.GetNumberOfValues())], names)
+    several.Overlap = "First"
+    mesher = MeshSegmentationTetrahedralize(Input=several, SmallestComponent=0)
+    mesher.UpdatePipeline()
+    check_equal(labels_of(mesher), {1, 2}, "the first gets what all have")
+    readers[1:] = []
+    several.Input = readers
+    several.MaskNames = ["liver"]
+    several.UpdatePipeline()
+    check_equal(several.PointData["Labels"].GetRange(), (0, 1), "inputs taken away")
+
+
+def test_dicom_segmentation():
+    file = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "IO", "highdicom", "fractional.dcm")
+    reader = SegmentationReaderVoxplex(FileName=file)
+    reader.UpdatePipeline()
+    check_equal(reader.PointData["Labels"].GetRange(), (0, 3), "segments")
+    reader.MaskThreshold = 0.7
+    reader.UpdatePipeline()
+    check_equal(reader.PointData["Labels"].GetRange(), (0, 2), "segments above 0.7")
+
+
+def numbers(array):
+    return [int(array.GetTuple1(n)) for n in range(array.GetNumberOfTuples())]
 
 
 def test_options():
@@ -216,6 +282,9 @@ def test_messages():
 def main():
     load_plugin(namespace=globals())
     test_documentation()
+    test_repair()
+    test_masks()
+    test_dicom_segmentation()
     test_options()
     test_density_and_shapes()
     test_isosurface()

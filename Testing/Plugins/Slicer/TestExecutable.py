@@ -52,6 +52,22 @@ class Runs(ModuleTestCase):
         self.assertEqual({tuple(pair) for pair in surfaces.labels}, {(3, 0), (7, 0), (7, 3)})
         self.assertEqual((mesh.space, surfaces.space), ("LPS", "LPS"))
 
+    def test_repair(self):
+        """Holes, thickness, shells; what is done is told, and the mesh is that of the repaired image."""
+        array = self.array.copy()
+        array[11, 11, 11] = 0
+        images.write_nrrd(self.folder / "two.nrrd", array, self.geometry)
+        told = self.run_module("--fillholes", 1, "--removespikes", "--minimumthickness", "3=2,7=2", "--shells", "3=-1.5,7=2",
+                               "--checkimage", "--delta", 2, "--quality", self.input, "mesh.vtu")
+        self.assertRegex(told, r"\nfill-holes: label \d: 1 voxel, at \(11, 11, 11\)\n")
+        self.assertRegex(told, r"\nshell: label 3: \d+ voxels became label 8,.*\nshell: label 7: \d+ voxels became label 9,")
+        mesh = meshfiles.read_tetrahedra(self.folder / "mesh.vtu")
+        self.assertEqual(set(mesh.labels), {3, 7, 8, 9})
+        failed = self.call("--shells", "5=1", self.input, "mesh.vtu")
+        self.assertIn("--shells: the image has no label 5; it has 3, 7", failed.stderr)
+        failed = self.call("--fillholes", 1, "--isosurface", "--isovalue", 2, self.input, "mesh.vtu")
+        self.assertIn("grey-value images have no labels", failed.stderr)
+
     def test_space(self):
         lps = self.mesh("--threads", 1)
         ras = self.mesh("--threads", 1, "--space", "RAS", "--surfaces", "ras.vtp", name="ras.vtu")

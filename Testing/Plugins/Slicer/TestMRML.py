@@ -78,6 +78,34 @@ class MRML(unittest.TestCase):
         names = loaded.GetMesh().GetFieldData().GetAbstractArray("LabelNames")
         self.assertEqual([names.GetValue(i) for i in range(names.GetNumberOfValues())], ["First", "Third"])
 
+    def test_overlap(self):
+        """A ball within a larger one, and beside it, gets its voxels, wherever it stands in the table."""
+        segmentation = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLSegmentationNode", "Balls")
+        segmentation.CreateDefaultDisplayNodes()
+        segmentation.SetReferenceImageGeometryParameterFromVolumeNode(SelfTest.VoxplexMesherTest.makeGrid())
+        for name, x, radius in (("Small / first", 4.0, 6.0), ("Large", 0.0, 12.0), ("Last", 40.0, 8.0)):
+            ball = vtk.vtkSphereSource()
+            ball.SetCenter(x, 0.0, 0.0)
+            ball.SetRadius(radius)
+            ball.SetPhiResolution(40)
+            ball.SetThetaResolution(40)
+            ball.Update()
+            segmentation.AddSegmentFromClosedSurfaceRepresentation(ball.GetOutput(), name, [1.0, 0.5, 0.5])
+        logic = VoxplexMesherLogic()
+        states = []
+        logic.onChange = states.append
+        logic.setDefaultParameters(self.node)
+        self.node.SetNodeReferenceID("Segmentation", segmentation.GetID())
+        self.node.SetParameter("delta", "2.0")
+        logic.apply(self.node)
+        logic.wait()
+        self.assertEqual(states[-1].phase, Phase.COMPLETED, states[-1])
+        self.assertRegex(states[-1].warnings, "masks overlap in [0-9]+ voxels, which the smallest of them gets: Small _ first and Large")
+        figures = measureLabels(self.node.GetNodeReference("OutputMesh").GetMesh())
+        balls = [4 / 3 * np.pi * radius**3 for radius in (6, 12, 8)]
+        np.testing.assert_allclose([f.volume for f in figures], [balls[0], balls[1] - balls[0], balls[2]], rtol=0.1)
+        self.assertEqual(nodes("vtkMRMLLabelMapVolumeNode"), [])
+
     def test_volume(self):
         """A ball in an oblique volume; its mesh, and its interfaces, lie where the ball lies."""
         k, j, i = np.mgrid[:20, :24, :28]

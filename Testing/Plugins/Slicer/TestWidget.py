@@ -418,6 +418,18 @@ class Runs(PanelTestCase):
         self.assertRegex("\n".join(self.log()), "voxplex: warning: The mesh lacks these labels .*: 3")
         self.assertIn("  Speck: none; it is too small for this delta", self.log())
 
+    def test_overlapping_segments(self):
+        """The smallest gets a voxel, though a later one has it, too."""
+        node = self.choose_segmentation()
+        node.GetSegmentation().add("c", "Knee: all/of it", (1, 1, 1), np.pad(np.ones((22, 22, 22), bool), 1))
+        self.widget.deltaSpinBox.value = 2.0
+        self.assertEqual(self.apply().phase, Phase.COMPLETED, self.log())
+        counts = [(self.array == 3).sum(), (self.array == 7).sum()]
+        self.assertIn("voxplex: warning: masks overlap in %d voxels, which the smallest of them gets: "
+                      "Bone and Knee_ all_of it (%d), Muscle and Knee_ all_of it (%d)" % (sum(counts), *counts), "\n".join(self.log()))
+        volumes = [f.volume for f in measureLabels(self.mesh_node().GetMesh())]
+        np.testing.assert_allclose(volumes, [*counts, 22**3 - sum(counts)], rtol=0.08)
+
     def test_place_of_the_mesh(self):
         """In an oblique image the mesh lies where the voxels lie in the scene, and does not say what coordinates it has:
         Slicer adds that to files where it is not yet there."""

@@ -40,7 +40,7 @@ class Segment:
 # The parameters of meshing that are settings, by their names in the CLI module. The segments have the others.
 _DEFAULTS, *_ROWS = json.loads(Path(__file__).with_name("Parameters.json").read_text(encoding="utf-8"))
 TABLE = [{**_DEFAULTS, **row} for row in _ROWS]  # as Parameters/write_slicer.py writes it
-PARAMETERS = {p["slicer"]: p for p in TABLE if p["slicer"] not in ("", "insideLabel", "labels", "labelSizes")}
+PARAMETERS = {p["slicer"]: p for p in TABLE if p["slicer"] not in ("", "insideLabel", "labels", "labelSizes", "minimumThickness", "shells")}
 
 
 def _default(parameter):
@@ -148,7 +148,7 @@ def meshedSegments(segments):
 # --- Options of the program ---------------------------------------------------------------------------------
 
 OF_VOLUMES = ("isovalue", "inside", "greySmoothing")
-OF_SEGMENTATIONS = ("quality", "smoothing")
+OF_SEGMENTATIONS = ("quality", "smoothing", "fillHoles", "removeSpikes", "checkImage")
 OF_GRADING = ("featureRatio", "largestFeature")
 
 
@@ -248,8 +248,9 @@ def measureLabels(mesh):
         vtk_to_numpy(mesh.GetCells().GetConnectivityArray()).reshape(-1, 4)].astype(float)
     edges = corners[:, 1:] - corners[:, :1]
     volumes = np.abs(np.linalg.det(edges)) / 6.0
-    return [LabelFigures(int(label), int((labels == label).sum()), float(volumes[labels == label].sum()))
-            for label in np.unique(labels)]
+    values, places = np.unique(labels, return_inverse=True)
+    return [LabelFigures(int(label), int(elements), float(volume)) for label, elements, volume in
+            zip(values, np.bincount(places), np.bincount(places, volumes))]
 
 
 def describeMesh(mesh, segments):

@@ -12,7 +12,7 @@ import qt
 import slicer
 
 from VoxplexMesherLib.Logic import MeshingError, Phase, RunState
-from VoxplexMesherLib.Scene import loadMesh, writeImage
+from VoxplexMesherLib.Scene import loadMesh, writeImages
 
 PACKAGE = "voxplex-mesh"  # `voxplex` on PyPI is another project
 QUESTION = ("The mesh is made by the program of the Python package %s, which this Slicer does not have yet. "
@@ -85,12 +85,12 @@ class ProgramRunner:
             return
         try:
             self.folder = tempfile.TemporaryDirectory(prefix="voxplex-", dir=slicer.app.temporaryPath)
-            writeImage(package.images, *self.inputs, self._path("image.nrrd"))
+            self.images = writeImages(package.images, *self.inputs, self.folder.name)
         except (OSError, MeshingError) as error:
             if self.folder is not None:
                 self.folder.cleanup()
             raise MeshingError(str(error)) from None
-        files = ["--input=" + self._path("image.nrrd"), "--output=" + self._path("mesh.vtu"),
+        files = [*("--input=" + path for path in self.images), "--output=" + self._path("mesh.vtu"),
                  "--stats=" + self._path("figures.json")]
         if self.outputs["interfaces.vtp"] is not None:
             files.append("--plc=" + self._path("interfaces.vtp"))
@@ -111,7 +111,9 @@ class ProgramRunner:
             if found:
                 self.onChange(RunState(Phase.RUNNING, int(found[1]) / 100.0, found[2]))
             elif line != "voxplex: see voxplex --help":
-                self.said.append(line.replace(self._path("image.nrrd"), self.inputs[0].GetName()))
+                for path, name in self.images.items():
+                    line = line.replace(path, name)
+                self.said.append(line)
 
     def _onError(self, error):
         if error == qt.QProcess.FailedToStart:  # otherwise it has finished, too

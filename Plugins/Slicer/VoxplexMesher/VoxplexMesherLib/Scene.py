@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Slicer's side of a run: segmentation nodes, volumes, model nodes."""
+import os
+import re
+
 import numpy as np
 import slicer
 import vtk
@@ -31,12 +34,31 @@ def isVolume(node):
     return node is not None and node.IsA("vtkMRMLScalarVolumeNode") and not node.IsA("vtkMRMLLabelMapVolumeNode")
 
 
-def writeImage(images, inputNode, segments, path):
-    """Writes a volume, or the segments that are meshed, as NRRD; images is a module of the package voxplex."""
+def writeImages(images, inputNode, segments, folder):
+    """Writes a volume, or the segments that are meshed, as NRRD; images is a module of the package voxplex.
+
+    Segments that may overlap become masks. Returns what messages call each file, by its path, in the order of labels.
+    """
+    path = os.path.join(folder, "image.nrrd")
     if isVolume(inputNode):
         images.write_nrrd(_imageOf(images, inputNode), path, hidden_is_outside=False)
-        return
-    node = _exportSegments(inputNode, segments)
+        return {path: inputNode.GetName()}
+    chosen = meshedSegments(segments)
+    if len(chosen) == 1 or inputNode.GetSegmentation().GetNumberOfLayers() == 1:
+        _writeSegments(images, inputNode, chosen, path)
+        return {path: inputNode.GetName()}
+    names = {}
+    for label, segment in enumerate(chosen, 1):
+        file = re.sub(r'[\0-\x1f<>:"/\\|?*]', "_", segment.name)[:50] + ".nrrd"  # warnings show it
+        path = os.path.join(folder, str(label), file)
+        os.mkdir(os.path.dirname(path))
+        _writeSegments(images, inputNode, [segment], path)
+        names[path] = segment.name
+    return names
+
+
+def _writeSegments(images, segmentationNode, segments, path):
+    node = _exportSegments(segmentationNode, segments)
     try:
         images.write_nrrd(_imageOf(images, node), path, hidden_is_outside=False)
     finally:
@@ -47,9 +69,9 @@ def writeImage(images, inputNode, segments, path):
 
 
 def _exportSegments(segmentationNode, segments):
-    """A temporary label map, with labels 1, 2, ...; later segments win where they overlap."""
+    """A temporary label map, with labels 1, 2, ..."""
     ids = vtk.vtkStringArray()
-    for segment in meshedSegments(segments):
+    for segment in segments:
         ids.InsertNextValue(segment.id)
     node = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLLabelMapVolumeNode", "Voxplex label map")
     if not slicer.modules.segmentations.logic().ExportSegmentsToLabelmapNode(

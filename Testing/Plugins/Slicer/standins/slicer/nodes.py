@@ -126,6 +126,11 @@ class vtkSegmentation(Observed):
     def GetSegment(self, segmentId):
         return self.segments.get(segmentId)
 
+    def GetNumberOfLayers(self):
+        """One if no segments overlap."""
+        voxels = [segment.voxels for segment in self.segments.values()]
+        return 1 if np.sum(voxels, axis=0).max() <= 1 else len(voxels)
+
 
 class vtkMRMLSegmentationNode(vtkMRMLNode):
     def __init__(self, name=""):

@@ -1,0 +1,793 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/SegmentationRepair.h"
+
+#include "Image/Components.h"
+#include "Parallel/ParallelFor.h"
+#include "Private/ThinRidges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** Components with fewer voxels are crumbs: those that a mesh may lose by default. */
+constexpr std::int64_t CrumbVoxels = 8;
+
+struct Faces
+{
+  std::map<LabelId, std::int64_t> Counts;
+
+  /** Of several the smallest. */
+  std::optional<LabelId> MostFrequent() const
+  {
+    const auto most = std::max_element(this->Counts.begin(), this->Counts.end(),
+      [](const auto& a, const auto& b) { return a.second < b.second; });
+    return most == this->Counts.end() ? std::nullopt : std::optional(most->first);
+  }
+};
+
+} // namespace
+
+/** One row for each label. */
+struct SegmentationRepair::Rows
+{
+  std::string What;
+  std::map<std::int64_t, std::pair<RepairRow, std::int64_t>>
+    ByLabel; ///< with the largest place's voxels
+
+  void Add(std::int64_t label, std::int64_t voxels, const VoxelIndex& first, const VoxelIndex& last)
+  {
+    auto& [row, largest] = this->ByLabel.try_emplace(label).first->second;
+    if (voxels > largest || (voxels == largest && first < row.First))
+    {
+      row.First = first;
+      row.Last = last;
+      largest = voxels;
+    }
+    row.What = this->What;
+    row.Label = label;
+    row.Voxels += voxels;
+    ++row.Places;
+  }
+
+  void AppendTo(std::vector<RepairRow>& rows) const
+  {
+    for (const auto& [label, row] : this->ByLabel)
+    {
+      rows.push_back(row.first);
+    }
+  }
+};
+
+SegmentationRepair::SegmentationRepair(
+  const GridGeometry<3>& grid, unsigned threads, RepairProgress progress)
+  : Grid(grid)
+  , Ids(Unsigned(grid.Dimensions[0] * grid.Dimensions[1] * grid.Dimensions[2]), 0)
+  , Values{ 0 }
+  , Threads(threads)
+  , Progress(std::move(progress))
+{
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    this->Spacing[a] = this->Grid.Spacing(static_cast<int>(a));
+  }
+}
+
+void SegmentationRepair::SetImage(const LabelImage<3>& image)
+{
+  this->Values.assign(image.Values().begin(), image.Values().end());
+  std::fill(this->Ids.begin(), this->Ids.end(), LabelId{ 0 });
+  auto from = image.Ids().begin();
+  const VoxelIndex& size = image.CropDimensions();
+  for (std::int64_t k = 0; k < size[2]; ++k)
+  {
+    for (std::int64_t j = 0; j < size[1]; ++j, from += size[0])
+    {
+      const VoxelIndex& origin = image.CropOrigin();
+      std::copy_n(from, size[0],
+        this->Ids.begin() + this->PositionOf({ origin[0], origin[1] + j, origin[2] + k }));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------------------------
+std::int64_t SegmentationRepair::PositionOf(const VoxelIndex& voxel) const
+{
+  const VoxelIndex& n = this->Grid.Dimensions;
+  return voxel[0] + n[0] * (voxel[1] + n[1] * voxel[2]);
+}
+
+VoxelIndex SegmentationRepair::IndexOf(std::int64_t position) const
+{
+  const VoxelIndex& n = this->Grid.Dimensions;
+  return { position % n[0], position / n[0] % n[1], position / (n[0] * n[1]) };
+}
+
+/** Nobody knows what is beyond the border: it has each label. */
+bool SegmentationRepair::Has(const VoxelIndex& voxel, LabelId id) const
+{
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    if (voxel[a] < 0 || voxel[a] >= this->Grid.Dimensions[a])
+    {
+      return true;
+    }
+  }
+  return this->Ids[Unsigned(this->PositionOf(voxel))] == id;
+}
+
+/**
+ * Whether a block of the label of two voxels along some of the axes has the voxel: what opening by the block leaves. (ITK's
+ * opening is of one label: 0.1 microseconds a voxel for each label and each block, this for all labels less.)
+ * @param axes bits
+ */
+bool SegmentationRepair::IsInBlock(const VoxelIndex& voxel, LabelId id, unsigned axes) const
+{
+  for (unsigned block = 0; block < 8; ++block) // on which side of the voxel it is
+  {
+    bool isWhole = (block & ~axes) == 0;
+    for (unsigned corner = 1; corner < 8 && isWhole; ++corner)
+    {
+      VoxelIndex other = voxel;
+      for (unsigned a = 0; a < 3; ++a)
+      {
+        other[a] += (corner >> a & 1u) == 0 ? 0 : (block >> a & 1u) == 0 ? 1 : -1;
+      }
+      isWhole = (corner & ~axes) != 0 || this->Has(other, id);
+    }
+    if (isWhole)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/** Calls visit(position) for the voxels that share a face with one. */
+template <typename Visit>
+void SegmentationRepair::ForEachNeighbour(std::int64_t position, Visit&& visit) const
+{
+  const VoxelIndex voxel = this->IndexOf(position);
+  std::int64_t stride = 1;
+  for (std::size_t a = 0; a < 3; stride *= this->Grid.Dimensions[a++])
+  {
+    if (voxel[a] > 0)
+    {
+      visit(position - stride);
+    }
+    if (voxel[a] + 1 < this->Grid.Dimensions[a])
+    {
+      visit(position + stride);
+    }
+  }
+}
+
+/** 0 if the image lacks the label. */
+LabelId SegmentationRepair::IdOf(std::int64_t label) const
+{
+  const auto found = std::find(this->Values.begin() + 1, this->Values.end(), label);
+  return found == this->Values.end() ? 0 : static_cast<LabelId>(found - this->Values.begin());
+}
+
+/** Labels are the numbers. There must be one. */
+LabelImage<3> SegmentationRepair::ImageOf(const std::vector<LabelId>& ids) const
+{
+  return LabelImage<3>::FromScalars<LabelId>(ids, this->Grid, {}, this->Threads);
+}
+
+VoxelBox SegmentationRepair::BoxOf(LabelId id) const
+{
+  VoxelBox box = VoxelBox::Empty();
+  const VoxelIndex& n = this->Grid.Dimensions;
+  for (std::int64_t row = 0; row < n[1] * n[2]; ++row)
+  {
+    const auto first = this->Ids.begin() + row * n[0];
+    const auto found = std::find(first, first + n[0], id);
+    if (found == first + n[0])
+    {
+      continue;
+    }
+    auto last = first + n[0] - 1;
+    while (*last != id)
+    {
+      --last;
+    }
+    box.Include({ found - first, row % n[1], row / n[1] });
+    box.Include({ last - first, row % n[1], row / n[1] });
+  }
+  return box;
+}
+
+//------------------------------------------------------------------------------------------------
+std::vector<std::pair<Piece, LabelId>> SegmentationRepair::FindCavities(std::int64_t largest) const
+{
+  std::vector<std::pair<Piece, LabelId>> cavities;
+  const VoxelIndex& n = this->Grid.Dimensions;
+  for (Piece& piece : FindPieces<LabelId>(this->Ids, n, 0, false, largest))
+  {
+    bool isEnclosed = true;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      isEnclosed = isEnclosed && piece.First[a] > 0 && piece.Last[a] + 1 < n[a];
+    }
+    if (!isEnclosed)
+    {
+      continue;
+    }
+    Faces faces;
+    for (const Piece::Run& run : piece.Runs)
+    {
+      const std::int64_t first = this->PositionOf(run.First);
+      for (std::int64_t voxel = first; voxel < first + run.Length; ++voxel)
+      {
+        this->ForEachNeighbour(voxel,
+          [&](std::int64_t neighbour)
+          {
+            const LabelId id = this->Ids[Unsigned(neighbour)];
+            faces.Counts[id] += id != 0 ? 1 : 0;
+          });
+      }
+    }
+    cavities.emplace_back(std::move(piece), *faces.MostFrequent());
+  }
+  return cavities;
+}
+
+std::vector<RepairRow> SegmentationRepair::FillHoles(std::int64_t largest)
+{
+  Rows filled{ "fill-holes", {} };
+  for (const auto& [piece, id] : this->FindCavities(largest))
+  {
+    for (const Piece::Run& run : piece.Runs)
+    {
+      std::fill_n(this->Ids.begin() + this->PositionOf(run.First), run.Length, id);
+    }
+    filled.Add(this->Values[id], piece.Voxels, piece.First, piece.Last);
+  }
+  std::vector<RepairRow> rows;
+  filled.AppendTo(rows);
+  return rows;
+}
+
+//------------------------------------------------------------------------------------------------
+/** The voxels with a label, in order, for which test(index, id) is true. */
+template <typename Test>
+SegmentationRepair::Positions SegmentationRepair::FindVoxels(Test&& test) const
+{
+  const VoxelIndex& n = this->Grid.Dimensions;
+  std::vector<Positions> found(Unsigned(n[2]));
+  ParallelFor(0, found.size(), 1, this->Threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      const VoxelBox slices{ { 0, 0, static_cast<std::int64_t>(first) },
+        { n[0] - 1, n[1] - 1, static_cast<std::int64_t>(last) - 1 } };
+      slices.ForEachVoxel(
+        [&](const VoxelIndex& voxel)
+        {
+          const std::int64_t position = this->PositionOf(voxel);
+          const LabelId id = this->Ids[Unsigned(position)];
+          if (id != 0 && test(voxel, id))
+          {
+            found[Unsigned(voxel[2])].push_back(position);
+          }
+        });
+    });
+  Positions all;
+  for (const Positions& slice : found)
+  {
+    all.insert(all.end(), slice.begin(), slice.end());
+  }
+  return all;
+}
+
+/** The sets of these voxels that are connected through faces and have one label. */
+std::vector<SegmentationRepair::Positions> SegmentationRepair::PiecesOf(
+  const Positions& voxels) const
+{
+  if (voxels.empty())
+  {
+    return {};
+  }
+  std::vector<LabelId> ids(this->Ids.size(), 0);
+  for (const std::int64_t voxel : voxels)
+  {
+    ids[Unsigned(voxel)] = this->Ids[Unsigned(voxel)];
+  }
+  const LabelImage<3> image = this->ImageOf(ids);
+  const Components<3> components(image, this->Threads);
+  std::vector<Positions> pieces(components.All().size());
+  for (std::uint32_t c = 0; c < pieces.size(); ++c)
+  {
+    components.ForEachRun(c,
+      [&](VoxelIndex first, std::int64_t length)
+      {
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          first[a] += image.CropOrigin()[a];
+        }
+        const std::int64_t position = this->PositionOf(first);
+        for (std::int64_t i = 0; i < length; ++i)
+        {
+          pieces[c].push_back(position + i);
+        }
+      });
+  }
+  return pieces;
+}
+
+/**
+ * Pieces of what opening takes that hang on one connected part of the rest. A piece between two parts is a bridge, and one
+ * without is a component.
+ */
+std::vector<SegmentationRepair::Positions> SegmentationRepair::FindSpikes() const
+{
+  const Positions taken = this->FindVoxels(
+    [this](const VoxelIndex& voxel, LabelId id)
+    {
+      return !this->IsInBlock(voxel, id, 0b011) && !this->IsInBlock(voxel, id, 0b101) &&
+        !this->IsInBlock(voxel, id, 0b110);
+    });
+  std::vector<LabelId> rest = this->Ids;
+  for (const std::int64_t voxel : taken)
+  {
+    rest[Unsigned(voxel)] = 0;
+  }
+  if (taken.empty() || std::all_of(rest.begin(), rest.end(), [](LabelId id) { return id == 0; }))
+  {
+    return {};
+  }
+  const LabelImage<3> image = this->ImageOf(rest);
+  const Components<3> parts(image, this->Threads);
+  std::vector<Positions> spikes;
+  for (Positions& piece : this->PiecesOf(taken))
+  {
+    std::uint32_t part = Components<3>::None;
+    bool isBridge = false;
+    for (const std::int64_t voxel : piece)
+    {
+      this->ForEachNeighbour(voxel,
+        [&](std::int64_t neighbour)
+        {
+          if (rest[Unsigned(neighbour)] != this->Ids[Unsigned(voxel)])
+          {
+            return;
+          }
+          VoxelIndex index = this->IndexOf(neighbour);
+          for (std::size_t a = 0; a < 3; ++a)
+          {
+            index[a] -= image.CropOrigin()[a];
+          }
+          isBridge = isBridge || (part != Components<3>::None && part != parts.At(index));
+          part = parts.At(index);
+        });
+    }
+    if (part != Components<3>::None && !isBridge)
+    {
+      spikes.push_back(std::move(piece));
+    }
+  }
+  return spikes;
+}
+
+/** Of the faces to other labels, background among them; nothing if all of these are removed. */
+std::optional<LabelId> SegmentationRepair::MostFrequentAround(
+  std::int64_t position, const std::vector<bool>& removed) const
+{
+  Faces faces;
+  this->ForEachNeighbour(position,
+    [&](std::int64_t neighbour)
+    {
+      const LabelId id = this->Ids[Unsigned(neighbour)];
+      if (!removed[Unsigned(neighbour)] && id != this->Ids[Unsigned(position)])
+      {
+        ++faces.Counts[id];
+      }
+    });
+  return faces.MostFrequent();
+}
+
+std::vector<RepairRow> SegmentationRepair::RemoveSpikes()
+{
+  Rows removed{ "remove-spikes", {} };
+  Positions waiting;
+  for (const Positions& spike : this->FindSpikes())
+  {
+    VoxelBox box = VoxelBox::Empty();
+    for (const std::int64_t voxel : spike)
+    {
+      box.Include(this->IndexOf(voxel));
+    }
+    removed.Add(
+      this->Values[this->Ids[Unsigned(spike.front())]], std::ssize(spike), box.First, box.Last);
+    waiting.insert(waiting.end(), spike.begin(), spike.end());
+  }
+  std::vector<bool> isWaiting(waiting.empty() ? 0 : this->Ids.size(), false);
+  for (const std::int64_t voxel : waiting)
+  {
+    isWaiting[Unsigned(voxel)] = true;
+  }
+  // From outside to inside, where spikes of several labels touch.
+  while (!waiting.empty())
+  {
+    std::vector<std::pair<std::int64_t, LabelId>> changes;
+    Positions later;
+    for (const std::int64_t voxel : waiting)
+    {
+      if (const auto id = this->MostFrequentAround(voxel, isWaiting))
+      {
+        changes.emplace_back(voxel, *id);
+      }
+      else
+      {
+        later.push_back(voxel);
+      }
+    }
+    for (const std::int64_t voxel : changes.empty() ? later : Positions())
+    {
+      changes.emplace_back(voxel, LabelId{ 0 });
+    }
+    waiting = changes.size() == waiting.size() ? Positions() : later;
+    for (const auto& [voxel, id] : changes)
+    {
+      this->Ids[Unsigned(voxel)] = id;
+      isWaiting[Unsigned(voxel)] = false;
+    }
+  }
+  std::vector<RepairRow> rows;
+  removed.AppendTo(rows);
+  return rows;
+}
+
+//------------------------------------------------------------------------------------------------
+/** The voxels that a label lacks. @param isKept of each number: takes nothing from it */
+SegmentationRepair::Positions SegmentationRepair::FindThickening(
+  LabelId id, double length, const std::vector<bool>& isKept) const
+{
+  Positions missing;
+  const VoxelIndex& n = this->Grid.Dimensions;
+  const VoxelBox box = this->BoxOf(id);
+  const double margin =
+    2.0 * length + 2.0 * *std::max_element(this->Spacing.begin(), this->Spacing.end());
+  const Point<3> half{ this->Spacing[0] / 2.0, this->Spacing[1] / 2.0, this->Spacing[2] / 2.0 };
+  box.Grown(length, this->Spacing, n)
+    .ForEachBlock(margin, this->Spacing,
+      [&](const VoxelBox& block)
+      {
+        this->Progress(static_cast<double>(block.First[2]) / static_cast<double>(n[2]));
+        const VoxelBox around = block.Grown(margin, this->Spacing, n);
+        const VoxelIndex size = around.Size();
+        const HalfVoxels halves{ { 2 * size[0], 2 * size[1], 2 * size[2] }, half };
+        std::vector<unsigned char> outside(halves.Count(), 0);
+        std::int64_t voxels = 0;
+        around.ForEachVoxel(
+          [&](const VoxelIndex& voxel)
+          {
+            const bool isLabel = this->Ids[Unsigned(this->PositionOf(voxel))] == id;
+            voxels += isLabel ? 1 : 0;
+            for (unsigned corner = 0; corner < 8; ++corner)
+            {
+              outside[halves.At(Minus(voxel, around.First), corner)] = isLabel ? 0 : 1;
+            }
+          });
+        if (voxels == 0 || voxels == size[0] * size[1] * size[2])
+        {
+          return;
+        }
+        const std::vector<unsigned char> ridges = halves.ThinRidges(outside, length / 2.0);
+        if (ridges.empty())
+        {
+          return;
+        }
+        const std::vector<float> distances = DistancesToSites(ridges, halves.Size, half);
+        block.ForEachVoxel(
+          [&](const VoxelIndex& voxel)
+          {
+            const std::int64_t position = this->PositionOf(voxel);
+            const LabelId own = this->Ids[Unsigned(position)];
+            int near = 0;
+            for (unsigned corner = 0; corner < 8 && own != id && !isKept[own]; ++corner)
+            {
+              near += distances[halves.At(Minus(voxel, around.First), corner)] <
+                  length / 2.0 * (1.0 - DistanceRounding)
+                ? 1
+                : 0;
+            }
+            if (near >= 4)
+            {
+              missing.push_back(position);
+            }
+          });
+      });
+  std::sort(missing.begin(), missing.end());
+  return missing;
+}
+
+/** Leaves out the voxels of components that would lose all of theirs. */
+void SegmentationRepair::LeaveComponents(Positions& taken) const
+{
+  if (std::all_of(taken.begin(), taken.end(),
+        [this](std::int64_t voxel) { return this->Ids[Unsigned(voxel)] == 0; }))
+  {
+    return;
+  }
+  const LabelImage<3> image = this->ImageOf(this->Ids);
+  const Components<3> components(image, this->Threads);
+  const auto componentOf = [&](std::int64_t voxel)
+  { return components.At(Minus(this->IndexOf(voxel), image.CropOrigin())); };
+  std::map<std::uint32_t, std::int64_t> losses;
+  for (const std::int64_t voxel : taken)
+  {
+    ++losses[componentOf(voxel)];
+  }
+  std::erase_if(taken,
+    [&](std::int64_t voxel)
+    {
+      const std::uint32_t component = componentOf(voxel);
+      return component != Components<3>::None &&
+        losses[component] == components.All()[component].Voxels;
+    });
+}
+
+/** Gives voxels another number, and says where they are. */
+RepairRow SegmentationRepair::Change(
+  const std::string& what, std::int64_t label, const Positions& voxels, LabelId id)
+{
+  RepairRow row{ what, label, std::ssize(voxels), 0, {}, {}, 0 };
+  if (voxels.empty())
+  {
+    return row;
+  }
+  VoxelBox box = VoxelBox::Empty();
+  for (const std::int64_t voxel : voxels)
+  {
+    this->Ids[Unsigned(voxel)] = id;
+    box.Include(this->IndexOf(voxel));
+  }
+  const VoxelIndex size = box.Size();
+  std::vector<unsigned char> mask(Unsigned(size[0] * size[1] * size[2]), 0);
+  for (const std::int64_t voxel : voxels)
+  {
+    const VoxelIndex at = Minus(this->IndexOf(voxel), box.First);
+    mask[Unsigned(at[0] + size[0] * (at[1] + size[1] * at[2]))] = 1;
+  }
+  Rows rows{ what, {} };
+  for (const Piece& piece :
+    FindPieces<unsigned char>(mask, size, 1, true, std::numeric_limits<std::int64_t>::max()))
+  {
+    rows.Add(label, piece.Voxels, Plus(piece.First, box.First), Plus(piece.Last, box.First));
+  }
+  return rows.ByLabel.at(label).first;
+}
+
+std::vector<RepairRow> SegmentationRepair::Thicken(const std::map<std::int64_t, double>& lengths)
+{
+  std::vector<bool> isKept(this->Values.size(), false);
+  for (const auto& [label, length] : lengths)
+  {
+    isKept[this->IdOf(label)] = true;
+  }
+  isKept[0] = false; // of labels that the image lacks
+  std::vector<RepairRow> rows;
+  for (const auto& [label, length] : lengths)
+  {
+    const LabelId id = this->IdOf(label);
+    Positions missing;
+    if (id != 0)
+    {
+      missing = this->FindThickening(id, length, isKept);
+      this->LeaveComponents(missing);
+    }
+    rows.push_back(this->Change("min-thickness", label, missing, id));
+  }
+  return rows;
+}
+
+//------------------------------------------------------------------------------------------------
+/** Background around a label, or, of a negative thickness, voxels of the label. */
+SegmentationRepair::Positions SegmentationRepair::FindLayer(LabelId id, double thickness) const
+{
+  Positions layer;
+  const VoxelIndex& n = this->Grid.Dimensions;
+  const bool isInside = thickness < 0.0;
+  const double length = std::abs(thickness);
+  const VoxelBox box = this->BoxOf(id);
+  const VoxelBox region = isInside ? box : box.Grown(length, this->Spacing, n);
+  region.ForEachBlock(length, this->Spacing,
+    [&](const VoxelBox& block)
+    {
+      this->Progress(static_cast<double>(block.First[2]) / static_cast<double>(n[2]));
+      bool isAny = false;
+      const auto isCandidate = [&](const VoxelIndex& voxel)
+      { return this->Ids[Unsigned(this->PositionOf(voxel))] == (isInside ? id : 0); };
+      block.ForEachVoxel([&](const VoxelIndex& voxel) { isAny = isAny || isCandidate(voxel); });
+      const VoxelBox around = block.Grown(length, this->Spacing, n);
+      std::vector<unsigned char> sites;
+      around.ForEachVoxel(
+        [&](const VoxelIndex& voxel)
+        {
+          const bool isLabel = this->Ids[Unsigned(this->PositionOf(voxel))] == id;
+          sites.push_back(isLabel != isInside ? 1 : 0);
+        });
+      if (!isAny || std::find(sites.begin(), sites.end(), 1) == sites.end())
+      {
+        return;
+      }
+      const VoxelIndex size = around.Size();
+      const std::vector<float> distances = DistancesToSites(sites, size, this->Spacing);
+      block.ForEachVoxel(
+        [&](const VoxelIndex& voxel)
+        {
+          const VoxelIndex at = Minus(voxel, around.First);
+          const double distance = distances[Unsigned(at[0] + size[0] * (at[1] + size[1] * at[2]))];
+          if (isCandidate(voxel) && distance <= length * (1.0 + DistanceRounding))
+          {
+            layer.push_back(this->PositionOf(voxel));
+          }
+        });
+    });
+  return layer;
+}
+
+std::vector<RepairRow> SegmentationRepair::MakeShells(
+  const std::map<std::int64_t, double>& thicknesses, std::int64_t first)
+{
+  std::vector<RepairRow> rows;
+  for (const auto& [label, thickness] : thicknesses)
+  {
+    const LabelId id = this->IdOf(label);
+    const auto shell = static_cast<LabelId>(this->Values.size());
+    this->Values.push_back(first + std::ssize(rows));
+    const Positions layer = id == 0 ? Positions() : this->FindLayer(id, thickness);
+    rows.push_back(this->Change("shell", label, layer, shell));
+    rows.back().NewLabel = this->Values.back();
+  }
+  return rows;
+}
+
+//------------------------------------------------------------------------------------------------
+/** All but the largest component of each label. */
+void SegmentationRepair::AddComponents(std::vector<RepairRow>& rows) const
+{
+  if (this->Values.size() == 1)
+  {
+    return;
+  }
+  const LabelImage<3> image = this->ImageOf(this->Ids);
+  const Components<3> components(image, this->Threads);
+  const std::vector<bool> isLargest =
+    components.FindWanted(std::numeric_limits<std::int64_t>::max());
+  Rows others{ "components", {} };
+  Rows crumbs{ "crumbs", {} };
+  for (std::size_t c = 0; c < isLargest.size(); ++c)
+  {
+    const Component<3>& component = components.All()[c];
+    if (!isLargest[c])
+    {
+      const VoxelIndex first = Plus(component.First, image.CropOrigin());
+      const std::int64_t label = this->Values[Unsigned(image.Values()[component.Label])];
+      (component.Voxels < CrumbVoxels ? crumbs : others).Add(label, component.Voxels, first, first);
+    }
+  }
+  others.AppendTo(rows);
+  crumbs.AppendTo(rows);
+}
+
+/** Edges and corners at which voxels of a label meet without a voxel of the label beside both. */
+void SegmentationRepair::AddContacts(std::vector<RepairRow>& rows) const
+{
+  const auto countAt = [this](const VoxelIndex& voxel, LabelId id)
+  {
+    bool isInside = true; // then there is one beside each
+    this->ForEachNeighbour(this->PositionOf(voxel),
+      [&](std::int64_t neighbour) { isInside = isInside && this->Ids[Unsigned(neighbour)] == id; });
+    int count = 0;
+    for (int step = 1; step < 27 && !isInside;
+         ++step) // to each diagonal neighbour that comes later
+    {
+      const VoxelIndex move{ step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1 };
+      const VoxelIndex other = Plus(voxel, move);
+      const bool isLater = move[2] > 0 || (move[2] == 0 && (move[1] > 0));
+      const std::int64_t axes = std::abs(move[0]) + std::abs(move[1]) + std::abs(move[2]);
+      if (!isLater || axes < 2 || !this->Has(other, id) || this->Has(other, 0))
+      {
+        continue;
+      }
+      bool isBeside = false;
+      for (unsigned part = 1; part < 7; ++part) // some of the moves, not all
+      {
+        const VoxelIndex between{ voxel[0] + ((part & 1u) ? move[0] : 0),
+          voxel[1] + ((part & 2u) ? move[1] : 0), voxel[2] + ((part & 4u) ? move[2] : 0) };
+        isBeside = isBeside || (between != voxel && between != other && this->Has(between, id));
+      }
+      count += isBeside ? 0 : 1;
+    }
+    return count;
+  };
+  Rows contacts{ "contacts", {} };
+  for (const std::int64_t position :
+    this->FindVoxels([&](const VoxelIndex&voxel, LabelId id) { return countAt(voxel, id) > 0; }))
+  {
+    const VoxelIndex voxel = this->IndexOf(position);
+    contacts.Add(this->Values[this->Ids[Unsigned(position)]], 1, voxel, voxel);
+  }
+  contacts.AppendTo(rows);
+}
+
+/** Labels at the border of the image. */
+void SegmentationRepair::AddBorders(std::vector<RepairRow>& rows) const
+{
+  Rows borders{ "border", {} };
+  const VoxelIndex& n = this->Grid.Dimensions;
+  for (const std::int64_t position : this->FindVoxels(
+         [&n](const VoxelIndex&voxel, LabelId)
+         {
+           return std::min({ voxel[0], voxel[1], voxel[2], n[0] - 1 - voxel[0], n[1] - 1 - voxel[1],
+                    n[2] - 1 - voxel[2] }) == 0;
+         }))
+  {
+    const VoxelIndex voxel = this->IndexOf(position);
+    borders.Add(this->Values[this->Ids[Unsigned(position)]], 1, voxel, voxel);
+  }
+  borders.AppendTo(rows);
+}
+
+std::vector<RepairRow> SegmentationRepair::FindSuspicious(
+  const std::map<std::int64_t, std::string>& names) const
+{
+  std::vector<RepairRow> rows;
+  this->AddComponents(rows);
+  Rows cavities{ "cavities", {} };
+  for (const auto& [piece, id] : this->FindCavities(std::numeric_limits<std::int64_t>::max()))
+  {
+    cavities.Add(this->Values[id], piece.Voxels, piece.First, piece.Last);
+  }
+  cavities.AppendTo(rows);
+  const auto addPieces = [&](const char* what, const std::vector<Positions>& pieces)
+  {
+    Rows found{ what, {} };
+    for (const Positions& piece : pieces)
+    {
+      const VoxelIndex first = this->IndexOf(piece.front());
+      found.Add(this->Values[this->Ids[Unsigned(piece.front())]], std::ssize(piece), first, first);
+    }
+    found.AppendTo(rows);
+  };
+  addPieces("spikes", this->FindSpikes());
+  addPieces("thin",
+    this->PiecesOf(this->FindVoxels(
+      [this](const VoxelIndex& voxel, LabelId id) { return !this->IsInBlock(voxel, id, 0b111); })));
+  this->AddContacts(rows);
+  this->AddBorders(rows);
+  std::vector<bool> occurs(this->Values.size(), false);
+  std::for_each(this->Ids.begin(), this->Ids.end(), [&](LabelId id) { occurs[id] = true; });
+  for (const auto& [label, name] : names)
+  {
+    if (this->IdOf(label) == 0 || !occurs[this->IdOf(label)])
+    {
+      rows.push_back({ "absent", label, 0, 0, {}, {}, 0 });
+    }
+  }
+  Rows unnamed{ "unnamed", {} };
+  for (std::size_t id = 0; id < occurs.size(); ++id)
+  {
+    occurs[id] = !names.empty() && names.count(this->Values[id]) == 0; // has no name
+  }
+  for (const std::int64_t position :
+    this->FindVoxels([&occurs](const VoxelIndex&, LabelId id) { return occurs[id]; }))
+  {
+    const VoxelIndex voxel = this->IndexOf(position);
+    unnamed.Add(this->Values[this->Ids[Unsigned(position)]], 1, voxel, voxel);
+  }
+  unnamed.AppendTo(rows);
+  return rows;
+}
+
+} // namespace voxplex

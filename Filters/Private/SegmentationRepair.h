@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file SegmentationRepair.h
+ * @brief Repairs of a label image, and what is suspicious about one. vtkSegmentationRepair.h says what each does.
+ */
+#ifndef voxplex_Private_SegmentationRepair_h
+#define voxplex_Private_SegmentationRepair_h
+
+#include "Private/VoxelBox.h"
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace voxplex
+{
+
+/** What was done to a label, or what is suspicious about one. */
+struct RepairRow
+{
+  std::string What; ///< the parameter, or the kind of thing
+  std::int64_t Label = 0;
+  std::int64_t Voxels = 0;
+  std::int64_t Places = 0;
+  ///@{
+  /** The bounding box of the place with most voxels. */
+  VoxelIndex First{};
+  VoxelIndex Last{};
+  ///@}
+  std::int64_t NewLabel = 0; ///< of a shell
+};
+
+/** Called with what is done of an operation, 0 to 1; throws Cancelled to end it. */
+using RepairProgress = std::function<void(double)>;
+
+/** @brief A whole label image that operations change one after the other. They return a row for each label. */
+class SegmentationRepair
+{
+public:
+  /**
+   * An image of background.
+   * @param threads 0 means all cores; no result depends on it
+   */
+  SegmentationRepair(const GridGeometry<3>& grid, unsigned threads, RepairProgress progress);
+
+  /** Of the same grid. */
+  void SetImage(const LabelImage<3>& image);
+
+  /** Cavities of at most `largest` voxels. */
+  std::vector<RepairRow> FillHoles(std::int64_t largest);
+
+  std::vector<RepairRow> RemoveSpikes();
+
+  /**
+   * A smallest thickness for labels, one after the other. They take no voxel from each other.
+   * @param lengths of labels, positive
+   */
+  std::vector<RepairRow> Thicken(const std::map<std::int64_t, double>& lengths);
+
+  /**
+   * A layer around labels, or, of a negative thickness, inside of labels, as new labels first, first + 1, ...
+   */
+  std::vector<RepairRow> MakeShells(
+    const std::map<std::int64_t, double>& thicknesses, std::int64_t first);
+
+  /** @param names of labels */
+  std::vector<RepairRow> FindSuspicious(const std::map<std::int64_t, std::string>& names) const;
+
+  /** Dense numbers of the voxels, and the label of each number. */
+  const std::vector<LabelId>& Voxels() const { return this->Ids; }
+  const std::vector<std::int64_t>& Labels() const { return this->Values; }
+
+private:
+  using Positions = std::vector<std::int64_t>; ///< of voxels, the first axis fastest
+  struct Rows;
+
+  std::int64_t PositionOf(const VoxelIndex& voxel) const;
+  VoxelIndex IndexOf(std::int64_t position) const;
+  bool Has(const VoxelIndex& voxel, LabelId id) const;
+  bool IsInBlock(const VoxelIndex& voxel, LabelId id, unsigned axes) const;
+  template <typename Visit>
+  void ForEachNeighbour(std::int64_t position, Visit&& visit) const;
+  LabelId IdOf(std::int64_t label) const;
+  LabelImage<3> ImageOf(const std::vector<LabelId>& ids) const;
+  VoxelBox BoxOf(LabelId id) const;
+
+  /** Each with the label that has most of the faces around it. */
+  std::vector<std::pair<Piece, LabelId>> FindCavities(std::int64_t largest) const;
+  template <typename Test>
+  Positions FindVoxels(Test&& test) const;
+  std::vector<Positions> PiecesOf(const Positions& voxels) const;
+  std::vector<Positions> FindSpikes() const;
+  std::optional<LabelId> MostFrequentAround(
+    std::int64_t position, const std::vector<bool>& removed) const;
+  Positions FindThickening(LabelId id, double length, const std::vector<bool>& isKept) const;
+  void LeaveComponents(Positions& taken) const;
+  Positions FindLayer(LabelId id, double thickness) const;
+  RepairRow Change(
+    const std::string& what, std::int64_t label, const Positions& voxels, LabelId id);
+  void AddComponents(std::vector<RepairRow>& rows) const;
+  void AddContacts(std::vector<RepairRow>& rows) const;
+  void AddBorders(std::vector<RepairRow>& rows) const;
+
+  GridGeometry<3> Grid;
+  Point<3> Spacing{};
+  std::vector<LabelId> Ids;
+  std::vector<std::int64_t> Values;
+  unsigned Threads;
+  RepairProgress Progress;
+};
+
+} // namespace voxplex
+
+#endif

@@ -1,0 +1,534 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSegmentationRepair.h"
+
+#include "Base/Error.h"
+#include "Base/NumberText.h"
+#include "MeshingParameters.h"
+#include "Private/ChosenArray.h"
+#include "Private/Execution.h"
+#include "Private/Lists.h"
+#include "Private/MeshingMessages.h"
+#include "Private/SegmentationRepair.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkIntArray.h"
+#include "vtkLongLongArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <vector>
+
+vtkStandardNewMacro(vtkSegmentationRepair);
+
+using voxplex::InputError;
+using voxplex::RepairRow;
+
+class vtkSegmentationRepair::Internals
+{
+public:
+  std::map<std::int64_t, double> Thicknesses;
+  std::map<std::int64_t, double> Shells;
+  std::vector<RepairRow> Rows;
+  std::map<std::int64_t, std::string> Names;
+
+  std::string NameOf(std::int64_t label) const
+  {
+    const auto name = this->Names.find(label);
+    return name == this->Names.end() ? "" : name->second;
+  }
+};
+
+namespace
+{
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+using Names = std::map<std::int64_t, std::string>;
+
+/** Checks the lengths of a parameter. */
+void CheckLengths(
+  const char* parameter, const std::map<std::int64_t, double>& lengths, bool isSigned)
+{
+  for (const auto& [label, length] : lengths)
+  {
+    if (label <= 0)
+    {
+      throw InputError(std::string("{") + parameter + "}: " + std::to_string(label) +
+        " is not a label; labels are positive.");
+    }
+    if (!std::isfinite(length) || length == 0.0 || (length < 0.0 && !isSigned))
+    {
+      throw InputError(std::string("{") + parameter + "} of label " + std::to_string(label) +
+        " is " + voxplex::NumberText(length) + "; it must be " +
+        (isSigned ? "finite, and not 0." : "positive and finite."));
+    }
+  }
+}
+
+void RequireLabels(const char* parameter, const std::map<std::int64_t, double>& lengths,
+  std::span<const std::int64_t> labels)
+{
+  for (const auto& [label, length] : lengths)
+  {
+    if (std::find(labels.begin(), labels.end(), label) == labels.end())
+    {
+      throw InputError(std::string("{") + parameter + "}: the image has no label " +
+        std::to_string(label) + "; it has " + voxplex::ListLabels(labels.subspan(1)) + ".");
+    }
+  }
+}
+
+/** A type that has a label: that of an array, or a larger one. */
+int TypeFor(vtkDataArray* array, std::int64_t highest)
+{
+  const int own = array->GetDataType() == VTK_BIT ? VTK_UNSIGNED_CHAR : array->GetDataType();
+  for (const int type : { own, VTK_UNSIGNED_SHORT, VTK_INT })
+  {
+    if (static_cast<double>(highest) <= vtkDataArray::GetDataTypeMax(type))
+    {
+      return type;
+    }
+  }
+  return VTK_LONG_LONG;
+}
+
+vtkSmartPointer<vtkDataArray> MakeArray(
+  const voxplex::SegmentationRepair& image, vtkDataArray* before)
+{
+  const std::vector<std::int64_t>& labels = image.Labels();
+  auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(
+    TypeFor(before, *std::max_element(labels.begin(), labels.end()))));
+  array->SetName(before->GetName());
+  array->SetNumberOfTuples(static_cast<vtkIdType>(image.Voxels().size()));
+  switch (array->GetDataType())
+  {
+    vtkTemplateMacro(std::transform(image.Voxels().begin(), image.Voxels().end(),
+      static_cast<VTK_TT*>(array->GetVoidPointer(0)),
+      [&labels](voxplex::LabelId id) { return static_cast<VTK_TT>(labels[id]); }));
+  }
+  return array;
+}
+
+bool HasForeground(vtkDataArray* array)
+{
+  double range[2];
+  array->GetRange(range);
+  return range[0] != 0.0 || range[1] != 0.0;
+}
+
+/** Puts an array in the place of the one that has its name. */
+void Replace(const char* name, vtkDataArray* array, vtkDataSetAttributes* data)
+{
+  const bool isActive = data->GetScalars() == data->GetAbstractArray(name);
+  data->RemoveArray(name);
+  isActive ? data->SetScalars(array) : data->AddArray(array);
+}
+
+/** Appends the names that were not there before: of labels that are higher than all others. */
+void AddNames(vtkFieldData* fields, const Names& before, const Names& after)
+{
+  Names added;
+  std::set_difference(
+    after.begin(), after.end(), before.begin(), before.end(), std::inserter(added, added.end()));
+  if (added.empty())
+  {
+    return;
+  }
+  vtkNew<vtkLongLongArray> large;
+  vtkNew<vtkIntArray> small;
+  const bool isLarge = added.rbegin()->first > std::numeric_limits<int>::max();
+  const vtkSmartPointer<vtkDataArray> values =
+    isLarge ? static_cast<vtkDataArray*>(large) : static_cast<vtkDataArray*>(small);
+  vtkNew<vtkStringArray> names;
+  values->SetName("LabelValues");
+  names->SetName("LabelNames");
+  if (fields->GetArray("LabelValues") && fields->GetAbstractArray("LabelNames"))
+  {
+    values->DeepCopy(fields->GetArray("LabelValues"));
+    names->DeepCopy(fields->GetAbstractArray("LabelNames"));
+  }
+  vtkNew<vtkDoubleArray> colors;
+  const bool hasColors = fields->GetArray("LabelColors") != nullptr;
+  if (hasColors)
+  {
+    colors->DeepCopy(fields->GetArray("LabelColors"));
+  }
+  for (const auto& [label, name] : added)
+  {
+    const double value = static_cast<double>(label);
+    values->InsertNextTuple(&value);
+    names->InsertNextValue(name);
+    if (hasColors)
+    {
+      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+      colors->InsertNextTuple3(nan, nan, nan);
+    }
+  }
+  fields->AddArray(values);
+  fields->AddArray(names);
+  if (hasColors)
+  {
+    fields->AddArray(colors);
+  }
+}
+
+void FillTable(const std::vector<RepairRow>& rows, const Names& names, vtkTable* table)
+{
+  const auto numbers = [&](const char* name, int components)
+  {
+    const auto array = vtkSmartPointer<vtkLongLongArray>::New();
+    array->SetName(name);
+    array->SetNumberOfComponents(components);
+    table->AddColumn(array);
+    return array;
+  };
+  const auto texts = [&](const char* name)
+  {
+    const auto array = vtkSmartPointer<vtkStringArray>::New();
+    array->SetName(name);
+    table->AddColumn(array);
+    return array;
+  };
+  const auto what = texts("What");
+  const auto label = numbers("Label", 1);
+  const auto name = texts("Name");
+  const auto voxels = numbers("Voxels", 1);
+  const auto places = numbers("Places", 1);
+  const auto first = numbers("First", 3);
+  const auto last = numbers("Last", 3);
+  for (const RepairRow& row : rows)
+  {
+    what->InsertNextValue(row.What);
+    label->InsertNextValue(row.Label);
+    const auto found = names.find(row.Label);
+    name->InsertNextValue(found == names.end() ? "" : found->second);
+    voxels->InsertNextValue(row.Voxels);
+    places->InsertNextValue(row.Places);
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      first->InsertNextValue(row.First[a]);
+      last->InsertNextValue(row.Last[a]);
+    }
+  }
+}
+
+/** Of one kind, in a report to read. The table has all of them. */
+constexpr std::ptrdiff_t MostLines = 20;
+
+std::string Line(const RepairRow& row, const std::string& name)
+{
+  std::string text = row.What + ": label " + std::to_string(row.Label) +
+    (name.empty() ? "" : " (" + name + ")") + ": " + std::to_string(row.Voxels) +
+    (row.Voxels == 1 ? " voxel" : " voxels") +
+    (row.NewLabel == 0 ? "" : " became label " + std::to_string(row.NewLabel));
+  if (row.Places == 0)
+  {
+    return text;
+  }
+  if (row.Places > 1 && row.Places != row.Voxels)
+  {
+    text += " in " + std::to_string(row.Places) + " places";
+  }
+  text += row.Places == 1      ? ", at ("
+    : row.Places == row.Voxels ? ", one at ("
+                               : ", the largest at (";
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    text += (a == 0 ? "" : ", ") + std::to_string(row.First[a]) +
+      (row.First[a] == row.Last[a] ? "" : "-" + std::to_string(row.Last[a]));
+  }
+  return text + ")";
+}
+
+} // namespace
+
+//----------------------------------------------------------------------------------------------------
+vtkSegmentationRepair::vtkSegmentationRepair()
+  : Private(std::make_unique<Internals>())
+{
+  this->SetNumberOfOutputPorts(2);
+  this->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
+}
+
+vtkSegmentationRepair::~vtkSegmentationRepair() = default;
+
+void vtkSegmentationRepair::SetInputArrayToProcess(
+  int index, int port, int connection, int association, const char* name)
+{
+  if (name && *name)
+  {
+    this->Superclass::SetInputArrayToProcess(index, port, connection, association, name);
+  }
+  else
+  {
+    this->Superclass::SetInputArrayToProcess(index, port, connection,
+      vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
+  }
+}
+
+void vtkSegmentationRepair::SetMinimumThickness(vtkTypeInt64 label, double length)
+{
+  voxplex::SetSize(this, this->Private->Thicknesses, label, length);
+}
+
+double vtkSegmentationRepair::GetMinimumThickness(vtkTypeInt64 label) const
+{
+  return voxplex::SizeOf(this->Private->Thicknesses, label);
+}
+
+void vtkSegmentationRepair::ClearMinimumThicknesses()
+{
+  voxplex::Clear(this, this->Private->Thicknesses);
+}
+
+void vtkSegmentationRepair::SetShell(vtkTypeInt64 label, double thickness)
+{
+  voxplex::SetSize(this, this->Private->Shells, label, thickness);
+}
+
+double vtkSegmentationRepair::GetShell(vtkTypeInt64 label) const
+{
+  return voxplex::SizeOf(this->Private->Shells, label);
+}
+
+void vtkSegmentationRepair::ClearShells()
+{
+  voxplex::Clear(this, this->Private->Shells);
+}
+
+vtkTable* vtkSegmentationRepair::GetReportTable()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+std::string vtkSegmentationRepair::GetReport()
+{
+  std::string text;
+  const std::vector<RepairRow>& rows = this->Private->Rows;
+  for (auto first = rows.begin(); first != rows.end();)
+  {
+    const auto last = std::find_if(
+      first, rows.end(), [first](const RepairRow& row) { return row.What != first->What; });
+    const auto shown = first + std::min(last - first, MostLines);
+    for (auto row = first; row != shown; ++row)
+    {
+      text += Line(*row, this->Private->NameOf(row->Label)) + "\n";
+    }
+    if (shown != last)
+    {
+      text += first->What + ": " + std::to_string(last - shown) + " more labels\n";
+    }
+    first = last;
+  }
+  return text;
+}
+
+std::string vtkSegmentationRepair::ToJSON()
+{
+  auto rows = nlohmann::ordered_json::array();
+  for (const RepairRow& row : this->Private->Rows)
+  {
+    rows.push_back({ { "what", row.What }, { "label", row.Label }, { "voxels", row.Voxels },
+      { "places", row.Places }, { "first", row.First }, { "last", row.Last } });
+    if (row.NewLabel != 0)
+    {
+      rows.back()["new_label"] = row.NewLabel;
+    }
+  }
+  return rows.dump();
+}
+
+int vtkSegmentationRepair::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkImageData" : "vtkTable");
+  return 1;
+}
+
+vtkTypeBool vtkSegmentationRepair::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  VOXPLEX_FORGET_ABORT(request);
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
+  {
+    return 1; // the superclass wants to know the array before there is one
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+int vtkSegmentationRepair::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  voxplex::RequestWholeInputs(inputVector, 1);
+  return 1;
+}
+
+int vtkSegmentationRepair::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->ErrorMessage.clear();
+  this->Private->Rows.clear();
+  bool isAborted = false;
+  this->ErrorMessage = voxplex::CatchFailure(
+    [&]
+    {
+      try
+      {
+        this->Repair(inputVector, outputVector);
+      }
+      catch (const voxplex::Cancelled&)
+      {
+        isAborted = true;
+      }
+    },
+    "There is not enough memory to repair this image.", "The image cannot be repaired: ");
+  if (this->ErrorMessage.empty() && !isAborted)
+  {
+    return 1;
+  }
+  this->Private->Rows.clear();
+  vtkDataObject::GetData(outputVector, 0)->Initialize();
+  vtkDataObject::GetData(outputVector, 1)->Initialize();
+  if (isAborted)
+  {
+    return 1;
+  }
+  this->ErrorMessage =
+    voxplex::InTermsOf(static_cast<voxplex::UserInterface>(this->Vocabulary), this->ErrorMessage);
+  vtkErrorMacro(<< this->ErrorMessage);
+  return 0;
+}
+
+//----------------------------------------------------------------------------------------------------
+void vtkSegmentationRepair::CheckParameters() const
+{
+  voxplex::CheckValue("fill-holes", this->FillHoles);
+  CheckLengths("min-thickness", this->Private->Thicknesses, false);
+  CheckLengths("shell", this->Private->Shells, true);
+  if (this->FirstShellLabel < 0 || this->NumberOfThreads < 0)
+  {
+    throw InputError("FirstShellLabel and NumberOfThreads must not be negative.");
+  }
+}
+
+bool vtkSegmentationRepair::IsIdle() const
+{
+  return this->FillHoles == 0 && !this->RemoveSpikes && !this->CheckImage &&
+    this->Private->Thicknesses.empty() && this->Private->Shells.empty();
+}
+
+void vtkSegmentationRepair::Change(voxplex::SegmentationRepair& image)
+{
+  Internals& own = *this->Private;
+  const auto take = [&](const std::vector<RepairRow>& rows)
+  {
+    own.Rows.insert(own.Rows.end(), rows.begin(), rows.end());
+    this->Proceed(0.0);
+  };
+  if (this->FillHoles > 0)
+  {
+    take(image.FillHoles(this->FillHoles));
+  }
+  if (this->RemoveSpikes)
+  {
+    take(image.RemoveSpikes());
+  }
+  take(image.Thicken(own.Thicknesses));
+  const std::int64_t named = own.Names.empty() ? 0 : own.Names.rbegin()->first;
+  take(image.MakeShells(own.Shells,
+    this->FirstShellLabel > 0 ? this->FirstShellLabel
+                              : 1 + std::max(image.Labels().back(), named)));
+  for (const RepairRow& row : std::vector(own.Rows))
+  {
+    if (row.NewLabel != 0 && own.Names.count(row.Label))
+    {
+      own.Names[row.NewLabel] = own.Names[row.Label] + " shell";
+    }
+  }
+  if (this->CheckImage)
+  {
+    take(image.FindSuspicious(own.Names));
+  }
+}
+
+void vtkSegmentationRepair::Proceed(double fraction)
+{
+  this->UpdateProgress(fraction);
+  if (voxplex::IsStopRequested(this))
+  {
+    throw voxplex::Cancelled();
+  }
+}
+
+void vtkSegmentationRepair::Repair(
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->CheckParameters();
+  vtkImageData* const input = vtkImageData::GetData(inputVector[0]);
+  vtkImageData* const output = vtkImageData::GetData(outputVector);
+  output->ShallowCopy(input);
+  if (!this->IsIdle())
+  {
+    int association = 0;
+    vtkAbstractArray* const chosen =
+      this->GetInputAbstractArrayToProcess(0, inputVector, association);
+    const voxplex::ChosenArray array =
+      voxplex::ChooseScalars(input, chosen, association, voxplex::ImageContent::Labels, "input",
+        " Frames that are components cannot be repaired; give them as steps of time.");
+    const Names before = voxplex::LabelNames(input->GetFieldData());
+    const bool isSeries =
+      inputVector[0]->GetInformationObject(0)->Length(Pipeline::TIME_STEPS()) > 1;
+    const unsigned threads = voxplex::ThreadsFor(this->NumberOfThreads);
+    voxplex::SegmentationRepair image(
+      array.Frame.Grid, threads, [this](double fraction) { this->Proceed(fraction); });
+    if (!isSeries || HasForeground(array.Array))
+    {
+      image.SetImage(voxplex::ReadLabels(array, {}, threads));
+    }
+    if (!isSeries)
+    {
+      RequireLabels("min-thickness", this->Private->Thicknesses, image.Labels());
+      RequireLabels("shell", this->Private->Shells, image.Labels());
+    }
+    this->Private->Names = before;
+    this->Change(image);
+    const bool isOfCells = association == vtkDataObject::FIELD_ASSOCIATION_CELLS;
+    Replace(chosen->GetName(), MakeArray(image, array.Array),
+      isOfCells ? static_cast<vtkDataSetAttributes*>(output->GetCellData())
+                : output->GetPointData());
+    AddNames(output->GetFieldData(), before, this->Private->Names);
+  }
+  FillTable(this->Private->Rows, this->Private->Names, vtkTable::GetData(outputVector, 1));
+}
+
+void vtkSegmentationRepair::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto print = [](ostream& to, const auto& item) { to << item.first << '=' << item.second; };
+  os << indent << "FillHoles: " << this->FillHoles << "\n";
+  os << indent << "RemoveSpikes: " << this->RemoveSpikes << "\n";
+  voxplex::PrintList(os, indent, "MinimumThickness", this->Private->Thicknesses, " none", print);
+  voxplex::PrintList(os, indent, "Shell", this->Private->Shells, " none", print);
+  os << indent << "FirstShellLabel: " << this->FirstShellLabel << "\n";
+  os << indent << "CheckImage: " << this->CheckImage << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Vocabulary: " << this->Vocabulary << "\n";
+  os << indent
+     << "ErrorMessage: " << (this->ErrorMessage.empty() ? "(none)" : this->ErrorMessage.c_str())
+     << "\n";
+  os << indent << "Report: " << (this->Private->Rows.empty() ? "(none)" : "") << "\n"
+     << this->GetReport();
+}

@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSegmentationRepair
+ * @brief   repairs a label image on request, and says what is suspicious about it
+ *
+ * Operations are off by default, and are done in the order in which they stand here. Cavities and distances are ITK's
+ * (BinaryImageToLabelMapFilter, SignedMaurerDistanceMapImageFilter).
+ *
+ * @par Input and outputs
+ * Port 0: a label image of three dimensions, 0 is background; SetInputArrayToProcess(0, ...) chooses an array, by default
+ * the active scalars of points or cells. Frames of a series are repaired one by one. Output 0 is the image with its labels
+ * changed, in a larger type if a new label needs it. Output 1 is a vtkTable, a row for each operation and label that it
+ * changed: `What`, `Label`, `Name`, `Voxels` that were changed, `Places` (connected sets of them), `First` and `Last`, the
+ * corners of the largest place's bounding box as indices of voxels from 0 on.
+ *
+ * @par FillHoles
+ * A cavity is a set of background voxels, connected through faces, that does not touch the border of the image. Cavities
+ * of at most FillHoles voxels get the label that has most of the faces around them. Islands of other labels stay; the
+ * meshing filters' MinimumComponentVolume is for these.
+ *
+ * @par RemoveSpikes
+ * What opening takes from a label, if it hangs on one side only. Opening is by squares of 2 x 2 voxels in the three planes:
+ * it takes strings that are one voxel wide, and no sheet. What connects two parts of a label stays, and so does a component
+ * that opening would take as a whole. The voxels get the label of most faces around them, or become background. Voxels
+ * beyond the border count as those of the label.
+ *
+ * @par MinimumThickness
+ * Where a label is thinner than a length, it is thickened to at least that, on both sides; oblique sheets to half a voxel
+ * less or more. A place is thin if it is farther than the length from where a ball of this diameter fits into the label.
+ * Balls of this diameter around the middle of thin places are added. They replace background and other labels, but no label
+ * that has a smallest thickness itself, and no whole component.
+ *
+ * @par Shell
+ * A positive thickness adds a new label around a label: background voxels whose centres are at most so far from the
+ * centre of a voxel of the label. Of a negative one, the label's own outer voxels become the new label, by their distance
+ * from voxels of other labels or background. New labels are FirstShellLabel and those that follow, by default from the
+ * highest label, of voxels and in the field data array `LabelValues`, plus one. `LabelNames` gets "NAME shell".
+ *
+ * @par CheckImage
+ * Output 1 then has rows for what is suspicious after the repair, too; nothing is changed. What is: `components` beside the
+ * largest of a label, `crumbs` (components of fewer than 8 voxels), `cavities`, `spikes`, `thin` (parts thinner than two
+ * voxels), `contacts` (voxels that meet at an edge or corner only; counted are voxels), `border` (voxels at the border of
+ * the image), `absent` (named labels without voxels), `unnamed` (labels without a name, if others have one).
+ *
+ * Lengths are in the unit of the spacing, along the image's axes, which are taken for orthogonal.
+ *
+ * @par Errors
+ * Misuse is reported with vtkErrorMacro and leaves the outputs empty; GetErrorMessage() keeps the reason. A label without
+ * voxels is an error, but not in a series.
+ *
+ * Time is linear in the voxels, for each MinimumThickness and Shell in those of the label's bounding box; memory is about 10
+ * bytes a voxel beside both images. If AbortExecute is set, the filter stops and leaves the outputs empty.
+ */
+#ifndef vtkSegmentationRepair_h
+#define vtkSegmentationRepair_h
+
+#include "vtkImageAlgorithm.h"
+#include "vtkVoxplexModule.h" // For export macro
+
+#include <memory> // For std::unique_ptr
+#include <string> // For std::string
+
+class vtkTable;
+
+namespace voxplex
+{
+class SegmentationRepair;
+}
+
+class VTKVOXPLEX_EXPORT vtkSegmentationRepair : public vtkImageAlgorithm
+{
+public:
+  ///@{
+  /** Construction, type information and printing, as in all VTK classes. */
+  static vtkSegmentationRepair* New();
+  vtkTypeMacro(vtkSegmentationRepair, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+  ///@}
+
+  ///@{
+  /** An empty name means the default, as in vtkImageToSimplexMeshFilter. */
+  void SetInputArrayToProcess(
+    int index, int port, int connection, int association, const char* name) override;
+  using vtkImageAlgorithm::SetInputArrayToProcess;
+  ///@}
+
+  ///@{
+  /** The largest cavity to fill, in voxels. Default 0: none. */
+  vtkSetMacro(FillHoles, int);
+  vtkGetMacro(FillHoles, int);
+  ///@}
+
+  ///@{
+  /** Default off. */
+  vtkSetMacro(RemoveSpikes, bool);
+  vtkGetMacro(RemoveSpikes, bool);
+  vtkBooleanMacro(RemoveSpikes, bool);
+  ///@}
+
+  ///@{
+  /** A smallest thickness of a label, positive; the getter returns 0 if the label has none. */
+  void SetMinimumThickness(vtkTypeInt64 label, double length);
+  double GetMinimumThickness(vtkTypeInt64 label) const;
+  void ClearMinimumThicknesses();
+  ///@}
+
+  ///@{
+  /** The thickness of a shell, negative for one inside of the label; the getter returns 0 if the label has none. */
+  void SetShell(vtkTypeInt64 label, double thickness);
+  double GetShell(vtkTypeInt64 label) const;
+  void ClearShells();
+  ///@}
+
+  ///@{
+  /** The new label of the first shell, in the order of labels. Default 0: see above. */
+  vtkSetMacro(FirstShellLabel, vtkTypeInt64);
+  vtkGetMacro(FirstShellLabel, vtkTypeInt64);
+  ///@}
+
+  ///@{
+  /** Default off. */
+  vtkSetMacro(CheckImage, bool);
+  vtkGetMacro(CheckImage, bool);
+  vtkBooleanMacro(CheckImage, bool);
+  ///@}
+
+  ///@{
+  /** Threads of what is not ITK's; 0 for as many as vtkSMPTools uses. No result depends on it. Default 0. */
+  vtkSetMacro(NumberOfThreads, int);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /** What messages call parameters: a value of vtkImageToSimplexMeshFilter::VOCABULARY_VTK and those beside it. */
+  vtkSetClampMacro(Vocabulary, int, 0, 5);
+  vtkGetMacro(Vocabulary, int);
+  ///@}
+
+  /** Output 1. */
+  vtkTable* GetReportTable();
+  /** Output 1 in words, a line for each row, but of at most 20 labels for each kind. */
+  std::string GetReport();
+  /** Output 1 as JSON: a list of objects with what, label, voxels, places, first, last, and of shells new_label. */
+  std::string ToJSON();
+
+  /** Why the last execution failed; empty if it did not. */
+  const std::string& GetErrorMessage() const { return this->ErrorMessage; }
+
+protected:
+  vtkSegmentationRepair();
+  ~vtkSegmentationRepair() override;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkSegmentationRepair(const vtkSegmentationRepair&) = delete;
+  void operator=(const vtkSegmentationRepair&) = delete;
+
+  class Internals;
+  void Repair(vtkInformationVector** inputVector, vtkInformationVector* outputVector);
+  void CheckParameters() const;
+  bool IsIdle() const;
+  void Change(voxplex::SegmentationRepair& image);
+  void Proceed(double fraction);
+
+  int FillHoles = 0;
+  bool RemoveSpikes = false;
+  bool CheckImage = false;
+  vtkTypeInt64 FirstShellLabel = 0;
+  int NumberOfThreads = 0;
+  int Vocabulary = 0;
+  std::string ErrorMessage;
+  std::unique_ptr<Internals> Private;
+};
+
+#endif

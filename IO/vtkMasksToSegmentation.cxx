@@ -1,0 +1,349 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMasksToSegmentation.h"
+
+#include "FileError.h"
+#include "ImageReading/Readers.h"
+#include "LabelTable.h"
+#include "MasksOnGrid.h"
+#include "Text.h"
+#include "VTKImage.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkCellData.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMatrix3x3.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <memory>
+#include <new>
+
+using namespace voxplex::io;
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+namespace
+{
+
+struct Mask
+{
+  vtkImageData* Image;
+  LabelTable::Entry Entry; ///< its name is empty if there is none
+};
+
+/** Of a block; empty if it has none. */
+template <typename TComposite>
+std::string NameOfBlock(TComposite* blocks, unsigned i)
+{
+  vtkInformation* const about = blocks->HasMetaData(i) ? blocks->GetMetaData(i) : nullptr;
+  const char* name = about ? about->Get(vtkCompositeDataSet::NAME()) : nullptr;
+  return name ? name : "";
+}
+
+/** The images of a data object, in their order. */
+void Gather(vtkDataObject* data, const std::string& name, std::vector<Mask>& masks)
+{
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    masks.push_back({ image, { name, std::nullopt } });
+  }
+  else if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(data))
+  {
+    for (unsigned i = 0; i < blocks->GetNumberOfBlocks(); ++i)
+    {
+      Gather(blocks->GetBlock(i), NameOfBlock(blocks, i), masks);
+    }
+  }
+  else if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(data))
+  {
+    for (unsigned i = 0; i < collection->GetNumberOfPartitionedDataSets(); ++i)
+    {
+      Gather(collection->GetPartitionedDataSet(i), NameOfBlock(collection, i), masks);
+    }
+  }
+  else if (auto* parts = vtkPartitionedDataSet::SafeDownCast(data))
+  {
+    for (unsigned i = 0; i < parts->GetNumberOfPartitions(); ++i)
+    {
+      Gather(parts->GetPartition(i), name, masks);
+    }
+  }
+  else
+  {
+    RefuseIf(data != nullptr, "block '", Excerpt(name), "' is a ", data ? data->GetClassName() : "",
+      "; masks are vtkImageData");
+  }
+}
+
+/** Of the array that is most likely the mask; empty if there is none. */
+std::string NameOfArray(vtkImageData* image)
+{
+  vtkDataSetAttributes* data = image->GetPointData();
+  if (data->GetNumberOfArrays() == 0)
+  {
+    data = image->GetCellData();
+  }
+  vtkAbstractArray* array = data->GetScalars();
+  array = array ? array : data->GetAbstractArray(0);
+  return array && array->GetName() ? array->GetName() : "";
+}
+
+/** Where neither the user nor a block gives one. */
+void FindNames(std::vector<Mask>& masks)
+{
+  std::map<std::string, int> uses;
+  for (const Mask& mask : masks)
+  {
+    ++uses[NameOfArray(mask.Image)];
+  }
+  for (Mask& mask : masks)
+  {
+    const LabelTable table = GetLabelTable(mask.Image->GetFieldData());
+    const std::string array = NameOfArray(mask.Image);
+    if (table.Entries.size() == 1)
+    {
+      const LabelTable::Entry& only = table.Entries.begin()->second;
+      mask.Entry.Color = only.Color;
+      mask.Entry.Name = mask.Entry.Name.empty() ? only.Name : mask.Entry.Name;
+    }
+    else if (mask.Entry.Name.empty() && uses[array] == 1)
+    {
+      mask.Entry.Name = array;
+    }
+  }
+}
+
+std::vector<Mask> MasksOf(vtkInformationVector* inputs, const std::map<int, std::string>& names)
+{
+  std::vector<Mask> masks;
+  for (int i = 0; i < inputs->GetNumberOfInformationObjects(); ++i)
+  {
+    Gather(vtkDataObject::GetData(inputs, i), "", masks);
+  }
+  RefuseIf(masks.empty(), "there is no mask in the input");
+  for (const auto& [number, name] : names)
+  {
+    RefuseIf(number < 0 || static_cast<std::size_t>(number) >= masks.size(), "SetMaskName(", number,
+      ", '", Excerpt(name), "') names none of the ", masks.size(), " masks");
+    masks[static_cast<std::size_t>(number)].Entry.Name = name;
+  }
+  FindNames(masks);
+  return masks;
+}
+
+voxplex::io::Space SpaceOf(const Mask& mask)
+{
+  const std::vector<std::string> texts = TextsOf(mask.Image->GetFieldData(), "SPACE");
+  return texts == std::vector<std::string>{ "RAS" } ? Space::RAS : Space::LPS;
+}
+
+/** As messages name it. */
+std::string Shown(const std::vector<Mask>& masks, const Mask& mask)
+{
+  return "mask " +
+    (mask.Entry.Name.empty() ? std::to_string(&mask - masks.data() + 1)
+                             : "'" + Excerpt(mask.Entry.Name) + "'");
+}
+
+/** What a reader of files says of the image, said of the mask. */
+template <typename TFunction>
+ScalarImage Take(TFunction&& take, const Mask& mask, const std::string& shown, Reading& reading)
+{
+  reading.Allocate = [](std::size_t bytes)
+  {
+    const std::shared_ptr<std::byte[]> memory(new std::byte[bytes]);
+    return std::shared_ptr<void>(memory, memory.get());
+  };
+  try
+  {
+    return take(mask.Image, reading);
+  }
+  catch (const FileError& error)
+  {
+    Refuse(shown, ": ", error.what());
+  }
+}
+
+/** Those of the first masks. */
+void OfferGrids(MasksOnGrid& joined, const std::vector<Mask>& masks, std::size_t count)
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    Reading reading;
+    const std::string shown = Shown(masks, masks[i]);
+    joined.OfferGrid(Take(PlaceOfVTKImage, masks[i], shown, reading), shown);
+  }
+}
+
+ImageAnswer Join(const std::vector<Mask>& masks, bool resample, double threshold, Overlap rule)
+{
+  MasksOnGrid joined(threshold);
+  OfferGrids(joined, masks, resample ? masks.size() : 0);
+  std::vector<std::string> warnings;
+  for (const Mask& mask : masks)
+  {
+    Reading reading;
+    const std::string shown = Shown(masks, mask);
+    joined.Add(mask.Entry, Take(TakeVTKImage, mask, shown, reading), shown);
+    for (const std::string& warning : reading.Warnings)
+    {
+      warnings.push_back(shown + ": " + warning);
+    }
+  }
+  return joined.Finish(rule, std::move(warnings));
+}
+
+} // namespace
+
+vtkStandardNewMacro(vtkMasksToSegmentation);
+
+vtkMasksToSegmentation::vtkMasksToSegmentation()
+  : Overlap(OVERLAP_SMALLEST)
+  , MaskThreshold(0.5)
+  , ResampleMasks(false)
+{
+}
+
+vtkMasksToSegmentation::~vtkMasksToSegmentation() = default;
+
+void vtkMasksToSegmentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "MaskNames:";
+  for (const auto& [mask, name] : this->MaskNames)
+  {
+    os << " " << mask << " " << name;
+  }
+  os << "\n"
+     << indent << "Overlap: " << (this->Overlap == OVERLAP_SMALLEST ? "smallest" : "order") << "\n"
+     << indent << "MaskThreshold: " << this->MaskThreshold << "\n"
+     << indent << "ResampleMasks: " << (this->ResampleMasks ? "on" : "off") << "\n"
+     << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
+}
+
+void vtkMasksToSegmentation::SetMaskName(int mask, const char* name)
+{
+  this->MaskNames[mask] = name ? name : "";
+  this->Modified();
+}
+
+void vtkMasksToSegmentation::ClearMaskNames()
+{
+  this->MaskNames.clear();
+  this->Modified();
+}
+
+const std::string& vtkMasksToSegmentation::GetWarning(int i) const
+{
+  static const std::string none;
+  return i >= 0 && i < this->GetNumberOfWarnings() ? this->Warnings[static_cast<std::size_t>(i)]
+                                                   : none;
+}
+
+int vtkMasksToSegmentation::FillInputPortInformation(int, vtkInformation* information)
+{
+  information->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  information->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObjectTree");
+  information->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  return 1;
+}
+
+int vtkMasksToSegmentation::Fail(const std::string& message, vtkInformationVector* outputVector)
+{
+  this->ErrorMessage = message;
+  this->Warnings.clear();
+  vtkErrorMacro(<< message);
+  if (vtkDataObject* output = vtkDataObject::GetData(outputVector))
+  {
+    output->Initialize();
+  }
+  return 0;
+}
+
+int vtkMasksToSegmentation::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->ErrorMessage.clear();
+  for (int i = 0; i < this->GetNumberOfInputConnections(0); ++i)
+  {
+    int port = 0;
+    vtkAlgorithm* const source = this->GetInputAlgorithm(0, i, port);
+    source->Update(port);
+  }
+  try
+  {
+    const std::vector<Mask> masks = MasksOf(inputVector[0], this->MaskNames);
+    MasksOnGrid joined;
+    OfferGrids(joined, masks, this->ResampleMasks ? masks.size() : 1);
+    const auto grid = ToVTKImage(joined.GetGrid(), SpaceOf(masks.front()));
+    vtkInformation* information = outputVector->GetInformationObject(0);
+    information->Set(Pipeline::WHOLE_EXTENT(), grid->GetExtent(), 6);
+    information->Set(vtkDataObject::ORIGIN(), grid->GetOrigin(), 3);
+    information->Set(vtkDataObject::SPACING(), grid->GetSpacing(), 3);
+    information->Set(vtkDataObject::DIRECTION(), grid->GetDirectionMatrix()->GetData(), 9);
+    vtkDataObject::SetPointDataActiveScalarInfo(information, VTK_UNSIGNED_SHORT, 1);
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    return this->Fail(error.what(), outputVector);
+  }
+}
+
+int vtkMasksToSegmentation::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  for (int i = 0; i < inputVector[0]->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* const information = inputVector[0]->GetInformationObject(i);
+    if (information->Has(Pipeline::WHOLE_EXTENT()))
+    {
+      information->Set(Pipeline::UPDATE_EXTENT(), information->Get(Pipeline::WHOLE_EXTENT()), 6);
+    }
+  }
+  return 1;
+}
+
+int vtkMasksToSegmentation::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->ErrorMessage.clear();
+  this->Warnings.clear();
+  try
+  {
+    const std::vector<Mask> masks = MasksOf(inputVector[0], this->MaskNames);
+    ImageAnswer answer = Join(masks, this->ResampleMasks, this->MaskThreshold,
+      this->Overlap == OVERLAP_ORDER ? Overlap::Order : Overlap::Smallest);
+    KeepLabelsOf(answer.Image, answer.Labels);
+    vtkImageData* const output = vtkImageData::GetData(outputVector);
+    output->ShallowCopy(ToVTKImage(answer.Image, SpaceOf(masks.front())));
+    AddSpaceArray(output, SpaceOf(masks.front()));
+    SetLabelTable(output->GetFieldData(), answer.Labels);
+    this->Warnings = std::move(answer.Warnings);
+  }
+  catch (const std::bad_alloc&)
+  {
+    return this->Fail("the masks do not fit into memory", outputVector);
+  }
+  catch (const std::exception& error)
+  {
+    return this->Fail(error.what(), outputVector);
+  }
+  for (const std::string& warning : this->Warnings)
+  {
+    vtkWarningMacro(<< warning);
+  }
+  return 1;
+}

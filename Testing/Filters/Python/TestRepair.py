@@ -1,0 +1,410 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""vtkSegmentationRepair: phantoms whose answers are known, and distances of SciPy."""
+import json
+import unittest
+
+import numpy
+from scipy import ndimage
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+import voxplex
+from filter_testing import add_array, components, errors_of, series
+
+
+def ball(radius=10.0, size=30):
+    return (numpy.linalg.norm(numpy.mgrid[:size, :size, :size] - (size - 1) / 2, axis=0) < radius).astype(numpy.uint8)
+
+
+def box(size=20, margin=5):
+    labels = numpy.zeros((size,) * 3, dtype=numpy.uint8)
+    labels[(slice(margin, -margin),) * 3] = 1
+    return labels
+
+
+def filter_of(image, **properties):
+    """A property that is a dictionary is one of labels."""
+    repair = voxplex.vtkSegmentationRepair()
+    repair.SetInputData(image)
+    for name, value in properties.items():
+        for arguments in value.items() if isinstance(value, dict) else [(value,)]:
+            getattr(repair, "Set" + name)(*arguments)
+    return repair
+
+
+def array_of(image, like):
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(like.shape)
+
+
+class Repair(unittest.TestCase):
+    def repaired(self, labels, place=None, **properties):
+        """The voxels, and the rows of the report."""
+        repair = filter_of(voxplex.Image(labels, **(place or {})).to_vtk(), **properties)
+        repair.Update()
+        self.assertEqual(repair.GetErrorMessage(), "")
+        return array_of(repair.GetOutput(), labels), json.loads(repair.ToJSON())
+
+    def check_same(self, found, expected):
+        self.assertEqual(numpy.argwhere(found != expected)[:20].tolist(), [])
+
+
+class Holes(Repair):
+    def test_size(self):
+        """A cavity of N voxels is filled, one of N + 1 is not."""
+        labels = ball()
+        labels[10, 10:13, 10:13] = 0
+        labels[20, 18:20, 10:15] = 0
+        filled = ball()
+        self.check_same(self.repaired(labels, FillHoles=8)[0], labels)
+        found, rows = self.repaired(labels, FillHoles=9)
+        self.assertEqual(found[10, 11, 11], 1)
+        self.assertEqual(found[20, 18, 12], 0)
+        self.assertEqual(rows, [{"what": "fill-holes", "label": 1, "voxels": 9, "places": 1, "first": [10, 10, 10],
+                                 "last": [12, 12, 10]}])
+        found, rows = self.repaired(labels, FillHoles=10)
+        self.check_same(found, filled)
+        self.assertEqual((rows[0]["voxels"], rows[0]["places"], rows[0]["first"]), (19, 2, [10, 18, 20]))
+
+    def test_only_what_is_enclosed(self):
+        """Not a dent, a cavity at the border of the image, or an island; corners enclose."""
+        labels = box()
+        labels[5, 10, 10] = 0
+        labels[10, 10, 10] = 2
+        self.check_same(self.repaired(labels, FillHoles=100)[0], labels)
+        labels = numpy.ones((8, 8, 8), dtype=numpy.uint8)
+        labels[0, 4, 4] = 0
+        self.check_same(self.repaired(labels, FillHoles=100)[0], labels)
+        labels[1, 4, 5] = 0  # shares an edge with it
+        self.assertEqual(self.repaired(labels, FillHoles=1)[0][1, 4, 5], 1)
+
+    def test_label_of_most_faces(self):
+        labels = box()
+        labels[:, :, 10:][labels[:, :, 10:] == 1] = 7
+        labels[10, 10, 10:12] = 0  # nine faces to 7, one to 1
+        found, rows = self.repaired(labels, FillHoles=2)
+        self.assertEqual(list(found[10, 10, 10:12]), [7, 7])
+        self.assertEqual([(row["label"], row["voxels"]) for row in rows], [(7, 2)])
+
+
+class Spikes(Repair):
+    def test_antenna(self):
+        labels = ball()
+        labels[14, 14, 20:28] = 1
+        found, rows = self.repaired(labels, RemoveSpikes=True)
+        self.check_same(found, ball())
+        self.assertEqual(rows, [{"what": "remove-spikes", "label": 1, "voxels": 3, "places": 1, "first": [25, 14, 14],
+                                 "last": [27, 14, 14]}])
+
+    def test_what_stays(self):
+        """Boxes, sheets, strings between two parts, and labels that are strings."""
+        labels = numpy.zeros((30, 30, 30), dtype=numpy.uint8)
+        labels[2:8, 2:8, 2:8] = 1
+        labels[2:8, 2:8, 15:20] = 1
+        labels[5, 5, 8:15] = 1  # a bridge
+        labels[8:20, 2:8, 5] = 1  # a sheet
+        labels[15:27, 20, 20] = 2
+        labels[25, 25, 25] = 3
+        labels[20:, 2:8, 20:][:, :, 0] = 4  # to the border
+        found, rows = self.repaired(labels, RemoveSpikes=True)
+        self.check_same(found, labels)
+        self.assertEqual(rows, [])
+
+    def test_diagonal_sheet(self):
+        i, j, k = numpy.mgrid[:30, :30, :30]
+        labels = (((i - k) // 2 == 0) & (j > 3) & (j < 26)).astype(numpy.uint8)
+        labels[:12] = 1  # what it hangs on
+        self.check_same(self.repaired(labels, RemoveSpikes=True)[0], labels)
+
+    def test_label_around(self):
+        """A spike into another label becomes that, voxel by voxel."""
+        labels = box()
+        labels[15:, :, :] = 2
+        labels[15:18, 10, 10] = 1
+        found, _ = self.repaired(labels, RemoveSpikes=True)
+        self.assertEqual(list(found[14:19, 10, 10]), [1, 2, 2, 2, 2])
+        labels = box()
+        labels[15:17, :, :] = 2
+        labels[15:20, 10, 10] = 1
+        self.assertEqual(list(self.repaired(labels, RemoveSpikes=True)[0][14:20, 10, 10]), [1, 2, 2, 0, 0, 0])
+
+    def test_noise_loses_no_component(self):
+        labels = numpy.random.RandomState(3).randint(0, 3, (40, 40, 40)).astype(numpy.uint8)
+        found, rows = self.repaired(labels, RemoveSpikes=True)
+        self.assertEqual(sum(row["voxels"] for row in rows), numpy.count_nonzero(found != labels))
+        for label in (1, 2):
+            before, count = ndimage.label(labels == label)
+            kept = set(numpy.unique(before[found == label]))
+            self.assertEqual(set(range(1, count + 1)) - kept, set())
+
+
+class Thickness(Repair):
+    def test_sheet(self):
+        """From one voxel to at least so many; the middle stays where it is."""
+        labels = numpy.zeros((20, 40, 40), dtype=numpy.uint8)
+        labels[10, 5:35, 5:35] = 1
+        for length, voxels in ((1, 1), (1.01, 3), (2, 3), (3, 3), (3.01, 5), (5, 5)):
+            found, rows = self.repaired(labels, MinimumThickness={1: length})
+            where = numpy.flatnonzero(found[:, 20, 20])
+            self.assertEqual((len(where), where.mean()), (voxels, 10), length)
+            self.assertEqual(rows[0]["voxels"], numpy.count_nonzero(found != labels))
+            self.assertTrue((found >= labels).all())
+
+    def test_two_voxels(self):
+        """What is thick enough stays as it is; from an even number of voxels to an even number."""
+        labels = numpy.zeros((20, 40, 40), dtype=numpy.uint8)
+        labels[9:11, 5:35, 5:35] = 1
+        for length, voxels in ((2, 2), (2.01, 4), (4, 4), (6, 6)):
+            found, _ = self.repaired(labels, MinimumThickness={1: length})
+            self.assertEqual(numpy.count_nonzero(found[:, 20, 20]), voxels, length)
+
+    def test_thick_parts_stay(self):
+        """Corners, bumps and spheres are not thin."""
+        labels = box(40, 10)
+        labels[9, 20, 20] = 1
+        self.check_same(self.repaired(labels, MinimumThickness={1: 6})[0], labels)
+        self.check_same(self.repaired(ball(12, 40), MinimumThickness={1: 6})[0], ball(12, 40))
+
+    def test_sheet_on_a_box(self):
+        labels = numpy.zeros((60, 30, 60), dtype=numpy.uint8)
+        labels[:40, 5:25, 5:25] = 1
+        labels[10, 5:25, 25:55] = 1
+        found, _ = self.repaired(labels, MinimumThickness={1: 3})
+        self.assertEqual({numpy.count_nonzero(found[5:16, 15, i]) for i in range(30, 54)}, {3})
+        self.check_same(found[:, :, :20], labels[:, :, :20])
+
+    def test_across_blocks(self):
+        """Larger than the blocks that it is computed in; a sheet is beside the border of one."""
+        labels = numpy.zeros((20, 30, 150), dtype=numpy.uint8)
+        labels[4:16, 4:26, 8:140:10] = 1
+        found, rows = self.repaired(labels, MinimumThickness={1: 5})
+        expected = ndimage.binary_dilation(labels[10, 15], iterations=2)
+        self.check_same(found[10, 15], expected)
+        self.assertEqual(rows[0]["places"], 14)
+
+    def test_spacing_and_direction(self):
+        """Lengths are in the world's unit, and axes may be turned."""
+        for axis, voxels in ((0, 3), (1, 5), (2, 3)):  # z, y, x
+            labels = numpy.zeros((40, 40, 40), dtype=numpy.uint8)
+            where = [slice(8, 32)] * 3
+            where[axis] = 20
+            labels[tuple(where)] = 1
+            for direction in (numpy.eye(3), [[0, 0, 1], [1, 0, 0], [0, 1, 0]], [[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]]):
+                place = {"spacing": (1.0, 0.5, 2.0), "direction": direction}
+                found, _ = self.repaired(labels, place, MinimumThickness={1: 2.5})
+                middle = [20] * 3
+                middle[axis] = slice(None)
+                self.assertEqual(numpy.count_nonzero(found[tuple(middle)]), voxels, axis)
+
+    def test_oblique_sheet(self):
+        """Its mean thickness: volume over area."""
+        i, j, k = numpy.mgrid[:60, :60, :60] - 29.27
+        height = abs(i + j + k) / 3 ** 0.5
+        around = numpy.sqrt(numpy.maximum(i * i + j * j + k * k - height ** 2, 0))
+        labels = ((height < 0.9) & (around < 20)).astype(numpy.uint8)
+        found, _ = self.repaired(labels, MinimumThickness={1: 4})
+        thickness = 12 * numpy.count_nonzero(found[around < 12]) / numpy.count_nonzero((height < 6) & (around < 12))
+        self.assertGreater(thickness, 3.8)
+        self.assertLess(thickness, 4.6)
+
+    def test_others(self):
+        """They lose voxels, but no component, and none to a label with a thickness of their own."""
+        labels = numpy.zeros((20, 40, 40), dtype=numpy.uint8)
+        labels[10, 5:35, 5:35] = 1
+        labels[11:, :, :20] = 2
+        labels[9, 30, 30] = 3
+        found, _ = self.repaired(labels, MinimumThickness={1: 3})
+        self.assertEqual(list(found[9:12, 20, 10]), [1, 1, 1])
+        self.assertEqual(found[9, 30, 30], 3)
+        found, rows = self.repaired(labels, MinimumThickness={1: 3, 2: 1})
+        self.assertEqual(list(found[9:12, 20, 10]), [1, 1, 2])
+        self.assertEqual([(row["label"], row["voxels"] > 0) for row in rows], [(1, True), (2, False)])
+
+
+class Shells(Repair):
+    def test_against_scipy(self):
+        rng = numpy.random.RandomState(2)
+        seeds = ndimage.gaussian_filter(rng.rand(50, 80, 150), 5)
+        labels = (seeds > numpy.percentile(seeds, 90)).astype(numpy.uint8)
+        labels[25:][labels[25:] == 1] = 4
+        for spacing in ((1.0, 1.0, 1.0), (0.7, 1.1, 2.3)):
+            place = {"spacing": spacing}
+            away = ndimage.distance_transform_edt(labels != 1, sampling=spacing[::-1])
+            inside = ndimage.distance_transform_edt(labels == 1, sampling=spacing[::-1])
+            found, rows = self.repaired(labels, place, Shell={1: 4.0})
+            self.check_same(found, numpy.where((labels == 0) & (away <= 4.0), 5, labels))
+            self.assertEqual((rows[0]["what"], rows[0]["label"], rows[0]["new_label"]), ("shell", 1, 5))
+            found, _ = self.repaired(labels, place, Shell={1: -3.0})
+            self.check_same(found, numpy.where((labels == 1) & (inside <= 3.0), 5, labels))
+
+    def test_numbers_and_names(self):
+        """Above all labels and names; what has no name gets none, and no colour."""
+        labels = box()
+        labels[:, :, 10:][labels[:, :, 10:] == 1] = 3
+        image = voxplex.Image(labels)
+        image.names = {1: "Bone", 9: "Elsewhere"}
+        data = image.to_vtk()
+        add_array(data.GetFieldData(), "LabelColors", numpy.array([[1.0, 0, 0], [0, 1, 0]]))
+        repair = filter_of(data, Shell={1: 1, 3: -1})
+        repair.Update()
+        fields = repair.GetOutput().GetFieldData()
+        names = fields.GetAbstractArray("LabelNames")
+        self.assertEqual(list(vtk_to_numpy(fields.GetArray("LabelValues"))), [1, 9, 10])
+        self.assertEqual([names.GetValue(i) for i in range(3)], ["Bone", "Elsewhere", "Bone shell"])
+        numpy.testing.assert_array_equal(vtk_to_numpy(fields.GetArray("LabelColors"))[2], [numpy.nan] * 3)
+        self.assertEqual(data.GetFieldData().GetAbstractArray("LabelNames").GetNumberOfValues(), 2)
+        found = array_of(repair.GetOutput(), labels)
+        self.assertEqual(set(numpy.unique(found)), {0, 1, 3, 10, 11})
+        self.assertIn("shell: label 1 (Bone): ", repair.GetReport())
+        self.assertIn("became label 10, at (4-9, 4-15, 4-15)", repair.GetReport())
+
+    def test_all_of_it(self):
+        """A thickness beyond the image."""
+        labels = box()
+        self.check_same(self.repaired(labels, Shell={1: 1e300})[0], numpy.where(labels == 0, 2, 1))
+        self.check_same(self.repaired(labels, Shell={1: -50})[0], 2 * labels)
+
+    def test_type(self):
+        labels = numpy.where(box() == 1, 255, 0).astype(numpy.uint8)
+        found, _ = self.repaired(labels, Shell={255: 1})
+        self.assertEqual((found.dtype, found.max()), (numpy.uint16, 256))
+
+
+class Check(Repair):
+    def test_each_kind(self):
+        labels = numpy.zeros((40, 40, 40), dtype=numpy.uint8)
+        labels[5:15, 5:15, 5:15] = 1
+        labels[8, 8, 8:10] = 0  # a cavity
+        labels[15:18, 10, 10] = 1  # a spike
+        labels[25:27, 5:15, 5:15] = 1  # a component
+        labels[36, 36, 36] = 1  # a crumb
+        labels[30, 20:30, 20:30] = 2  # thin
+        labels[31:33, 30:32, 30:32] = 2  # shares a corner
+        labels[0, 30:32, 5] = 4
+        image = voxplex.Image(labels)
+        image.names = {1: "Bone", 2: "Skin", 8: "Lost"}
+        repair = filter_of(image.to_vtk(), CheckImage=True)
+        repair.Update()
+        found = [(row["what"], row["label"], row["voxels"], row["places"], row["first"]) for row in json.loads(repair.ToJSON())]
+        self.assertEqual(found, [
+            ("components", 1, 200, 1, [5, 5, 25]), ("components", 2, 8, 1, [30, 30, 31]), ("crumbs", 1, 1, 1, [36, 36, 36]),
+            ("cavities", 1, 2, 1, [8, 8, 8]), ("spikes", 1, 3, 1, [10, 10, 15]), ("thin", 1, 4, 2, [10, 10, 15]),
+            ("thin", 2, 100, 1, [20, 20, 30]), ("thin", 4, 2, 1, [5, 30, 0]), ("contacts", 2, 1, 1, [29, 29, 30]),
+            ("border", 4, 2, 2, [5, 30, 0]), ("absent", 8, 0, 0, [0, 0, 0]), ("unnamed", 4, 2, 2, [5, 30, 0])])
+        self.check_same(array_of(repair.GetOutput(), labels), labels)
+        self.assertIn("absent: label 8 (Lost): 0 voxels\n", repair.GetReport())
+        table = repair.GetReportTable()
+        self.assertEqual(table.GetNumberOfRows(), len(found))
+        self.assertEqual(table.GetColumnByName("Name").GetValue(0), "Bone")
+        self.assertEqual(table.GetColumnByName("First").GetTuple3(0), (5.0, 5.0, 25.0))
+
+    def test_nothing(self):
+        self.assertEqual(self.repaired(ball(), CheckImage=True)[1], [])
+
+    def test_many_labels(self):
+        labels = numpy.zeros((3, 3, 25), numpy.uint8)
+        labels[0, 0] = range(1, 26)
+        repair = filter_of(voxplex.Image(labels).to_vtk(), CheckImage=True)
+        repair.Update()
+        lines = [line for line in repair.GetReport().splitlines() if line.startswith("border")]
+        self.assertEqual(lines[19:], ["border: label 20: 1 voxel, at (19, 0, 0)", "border: 5 more labels"])
+        self.assertEqual([row["what"] for row in json.loads(repair.ToJSON())].count("border"), 25)
+
+    def test_edges(self):
+        """Voxels that share an edge only; beside a third one they are no contact."""
+        labels = numpy.zeros((12, 12, 12), dtype=numpy.uint8)
+        labels[2:6, 2:6, 2:6] = 1
+        labels[2:6, 6:10, 6:10] = 1
+        contacts = [row for row in self.repaired(labels, CheckImage=True)[1] if row["what"] == "contacts"]
+        self.assertEqual([row["voxels"] for row in contacts], [4])
+        labels[2:6, 6, 5] = 1
+        self.assertNotIn("contacts", [row["what"] for row in self.repaired(labels, CheckImage=True)[1]])
+
+
+class Together(Repair):
+    def test_order(self):
+        """Holes first, then spikes, thickness, shells; the input stays as it is."""
+        labels = ball()
+        labels[14, 14, 14] = 0
+        labels[14, 14, 20:28] = 1
+        image = voxplex.Image(labels).to_vtk()
+        repair = filter_of(image, Shell={1: 1}, MinimumThickness={1: 2}, RemoveSpikes=True, FillHoles=1, CheckImage=True)
+        repair.Update()
+        self.assertEqual([row["what"] for row in json.loads(repair.ToJSON())][:4],
+                         ["fill-holes", "remove-spikes", "min-thickness", "shell"])
+        self.check_same(array_of(repair.GetOutput(), labels) == 1, ball() == 1)
+        self.check_same(array_of(image, labels), labels)
+        repair.ClearShells()
+        repair.ClearMinimumThicknesses()
+        repair.CheckImageOff()
+        repair.Update()
+        self.check_same(array_of(repair.GetOutput(), labels), ball())
+
+    def test_idle(self):
+        image = voxplex.Image(ball()).to_vtk()
+        repair = filter_of(image)
+        repair.Update()
+        self.assertEqual(repair.GetOutput().GetPointData().GetScalars(), image.GetPointData().GetScalars())
+        self.assertEqual((repair.GetReport(), repair.GetReportTable().GetNumberOfRows()), ("", 0))
+
+    def test_cells(self):
+        labels = ball()
+        labels[14, 14, 14] = 0
+        image = voxplex.Image(numpy.zeros((31, 31, 31), dtype=numpy.uint8)).to_vtk()
+        add_array(image.GetCellData(), "Tissue", labels.ravel())
+        repair = filter_of(image, FillHoles=1)
+        repair.SetInputArrayToProcess(0, 0, 0, 1, "Tissue")
+        repair.Update()
+        found = vtk_to_numpy(repair.GetOutput().GetCellData().GetArray("Tissue")).reshape(labels.shape)
+        self.check_same(found, ball())
+
+    def test_threads(self):
+        labels = numpy.random.RandomState(5).randint(0, 3, (30, 30, 30)).astype(numpy.uint8)
+        results = [self.repaired(labels, NumberOfThreads=threads, FillHoles=5, RemoveSpikes=True, MinimumThickness={1: 2},
+                                 Shell={2: -1}, CheckImage=True) for threads in (1, 3)]
+        self.check_same(results[0][0], results[1][0])
+        self.assertEqual(results[0][1], results[1][1])
+
+    def test_series(self):
+        """Each frame alone; a label may be missing, and a frame empty."""
+        frames = numpy.stack([ball(8), numpy.zeros_like(ball()), 3 * ball(6)])
+        frames[0, 14, 14, 14] = 0
+        source = series(frames, [0.0, 1.0, 2.0])
+        repair = voxplex.vtkSegmentationRepair()
+        repair.SetInputConnection(source.GetOutputPort())
+        repair.SetFillHoles(1)
+        repair.SetShell(3, 1.0)
+        repair.SetFirstShellLabel(300)
+        for time, labels in ((0.0, {0, 1}), (1.0, {0}), (2.0, {0, 3, 300})):
+            repair.UpdateTimeStep(time)
+            self.assertEqual(repair.GetErrorMessage(), "")
+            found = array_of(repair.GetOutput(), frames[0])
+            self.assertEqual((set(numpy.unique(found)), found.dtype), (labels, numpy.uint16))
+
+    def test_errors(self):
+        image = voxplex.Image(ball()).to_vtk()
+        for properties, message in (
+                ({"FillHoles": -1}, "FillHoles is -1"), ({"Shell": {1: 0}}, "Shell.* of label 1 is 0; it must be finite, and not 0"),
+                ({"MinimumThickness": {1: -2}}, "MinimumThickness.* of label 1 is -2; it must be positive"),
+                ({"MinimumThickness": {7: 2}}, "MinimumThickness.* the image has no label 7; it has 1"),
+                ({"Shell": {0: 2}}, "0 is not a label"), ({"NumberOfThreads": -1, "CheckImage": True}, "not be negative")):
+            repair = filter_of(image, **properties)
+            errors = errors_of(repair)
+            repair.Update()
+            self.assertRegex(repair.GetErrorMessage(), message)
+            self.assertEqual(len(errors), 1)
+            self.assertEqual(repair.GetOutput().GetNumberOfPoints(), 0)
+        repair = filter_of(components([ball(), ball()]), FillHoles=1)
+        errors_of(repair)
+        repair.Update()
+        self.assertRegex(repair.GetErrorMessage(), "2 components.*steps of time")
+
+    def test_abort(self):
+        repair = filter_of(voxplex.Image(ball()).to_vtk(), FillHoles=1)
+        repair.AddObserver("ProgressEvent", lambda caller, event: caller.SetAbortExecute(1))
+        repair.Update()
+        self.assertEqual((repair.GetErrorMessage(), repair.GetOutput().GetNumberOfPoints()), ("", 0))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Repairs and checks of the image before it is meshed: by the program, and in Python."""
+import json
+
+import numpy
+
+import images
+import voxplex
+from program import ProgramTestCase, main
+
+
+def phantom():
+    """A ball with a cavity, an antenna and a sheet."""
+    labels = numpy.zeros((40, 40, 40), dtype=numpy.uint8)
+    labels[numpy.linalg.norm(numpy.mgrid[:40, :40, :40] - 14.5, axis=0) < 10] = 3
+    repaired = labels.copy()
+    labels[14, 14, 14:16] = 0
+    labels[14, 14, 24:30] = 3
+    labels[30, 5:35, 5:35] = 7
+    repaired[29:32, 5:35, 5:35] = 7
+    return labels, repaired
+
+
+NAMES = {3: "Ball", 7: "Sheet"}
+OPTIONS = ("--fill-holes", 2, "--remove-spikes", "--min-thickness", "Sheet=3")
+
+
+class Program(ProgramTestCase):
+    def setUp(self):
+        super().setUp()
+        self.labels, self.repaired = phantom()
+        self.write(self.labels)
+
+    def write(self, labels):
+        names = {f"Segment{label}_{key}": value for label, name in NAMES.items()
+                 for key, value in (("ID", name), ("LabelValue", label), ("Layer", 0), ("Name", name))}
+        images.write_nrrd(self.folder / "dirty.nrrd", labels, key_values=names)
+
+    def run_program(self, *arguments):
+        done = self.call("--input", "dirty.nrrd", *arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
+
+    def check_repaired(self, voxels):
+        """The sheet's border grows, too."""
+        inside = numpy.zeros_like(voxels, dtype=bool)
+        inside[:, 8:32, 8:32] = True
+        inside[:25] = True
+        numpy.testing.assert_array_equal(voxels[inside], self.repaired[inside])
+
+    def test_saved_image(self):
+        told = self.run_program(*OPTIONS, "--shell", "Ball=2", "--shell", "7=-1", "--save-image", "clean.nrrd")
+        self.assertRegex(told, r"^fill-holes: label 3 \(Ball\): 2 voxels, at \(14-15, 14, 14\)\n"
+                               r"remove-spikes: label 3 \(Ball\): 5 voxels, at \(25-29, 14, 14\)\n"
+                               r"min-thickness: label 7 \(Sheet\): \d+ voxels, at \([\d, -]+\)\n"
+                               r"shell: label 3 \(Ball\): \d+ voxels became label 8, at \([\d, -]+\)\n"
+                               r"shell: label 7 \(Sheet\): \d+ voxels became label 9, at \([\d, -]+\)\n$")
+        clean = voxplex.read_segmentation(self.folder / "clean.nrrd")
+        self.assertEqual(clean.names, {**NAMES, 8: "Ball shell", 9: "Sheet shell"})
+        voxels = clean.voxels.copy()
+        voxels[voxels == 8] = 0
+        voxels[voxels == 9] = 7
+        self.check_repaired(voxels)
+
+    def test_check_makes_no_mesh(self):
+        told = self.run_program("--check-image")
+        self.assertEqual(told, "cavities: label 3 (Ball): 2 voxels, at (14-15, 14, 14)\n"
+                               "spikes: label 3 (Ball): 5 voxels, at (25, 14, 14)\n"
+                               "thin: label 3 (Ball): 5 voxels, at (25, 14, 14)\n"
+                               "thin: label 7 (Sheet): 900 voxels, at (5, 5, 30)\n")
+        self.assertEqual(self.run_program("--check-image", *OPTIONS).splitlines()[3:], [])
+        self.write(self.repaired)
+        self.assertEqual(self.run_program("--check-image"), "Nothing is suspicious.\n")
+
+    def test_mesh(self):
+        """A mesh of the repaired image, the report in the statistics, and the same image to compare with."""
+        told = self.run_program(*OPTIONS, "--shell", "Ball=3", "--check-image", "--labels", "Ball,Ball shell", "--delta", 2,
+                                "--output", "mesh.vtu", "--stats", "mesh.json", "--quality")
+        self.assertIn("\nfill-holes: label 3 (Ball): 2 voxels, at (14-15, 14, 14)\n", told)
+        figures = json.loads((self.folder / "mesh.json").read_text())
+        self.assertEqual([row["what"] for row in figures["repair"]], ["fill-holes", "remove-spikes", "min-thickness", "shell"])
+        self.assertEqual(figures["repair"][0], {"what": "fill-holes", "label": 3, "voxels": 2, "places": 1,
+                                                "first": [14, 14, 14], "last": [15, 14, 14]})
+        self.assertEqual(figures["repair"][3]["new_label"], 8)
+        self.assertEqual({name: figures["parameters"][name] for name in ("fill_holes", "min_thickness", "shell")},
+                         {"fill_holes": 2, "min_thickness": {"7": 3.0}, "shell": {"3": 3.0}})
+        self.assertEqual(set(figures["labels"]), {"3", "8"})
+        volumes = {label: row["volume"] for label, row in figures["labels"].items()}
+        self.assertAlmostEqual(volumes["3"] / numpy.count_nonzero(self.repaired == 3), 1, delta=0.02)
+        self.run_program(*OPTIONS, "--shell", "Ball=3", "--mesh", "mesh.vtu", "--labels", "3,8", "--stats", "again.json")
+        again = json.loads((self.folder / "again.json").read_text())
+        self.assertEqual(again["image"]["lost_labels"], [])
+        self.assertLess(max(abs(row["volume_error"]) for row in again["labels"].values()), 0.03)
+        self.assertEqual(again["repair"], figures["repair"])
+        self.assertIn("\nfill-holes: label 3", self.run_program("--fill-holes", 2, "--mesh", "mesh.vtu", "--output", "mesh.msh"))
+
+    def test_series(self):
+        frames = images.moving_balls(size=12, radius=3.0)
+        frames[0, 6, 6, 6] = 0
+        images.write_nrrd(self.folder / "dirty.nrrd", frames)
+        told = self.run_program("--fill-holes", 1, "--shell", "6=1", "--save-image", "clean.nrrd")
+        first = told.splitlines()[0]
+        self.assertRegex(first, r"^time 0: fill-holes: label \d+: 1 voxel, at \(6, 6, 6\)$")
+        clean = voxplex.read_segmentation(self.folder / "clean.nrrd").voxels
+        highest = int(frames.max())
+        self.assertEqual({int(frame.max()) for frame in clean}, {highest + 1})
+        frames[0, 6, 6, 6] = clean[0, 6, 6, 6]
+        numpy.testing.assert_array_equal(numpy.where(clean == highest + 1, 0, clean), frames)
+        self.assertGreater(frames[0, 6, 6, 6], 0)
+
+    def test_refused(self):
+        for status, pattern, arguments in (
+                (1, "cannot repair 'dirty.nrrd': --shell: the image has no label 5; it has 3, 7", ("--shell", "5=1")),
+                (2, "no label of the image is called 'Bal'; did you mean 'Ball'", ("--min-thickness", "Bal=1")),
+                (2, "--min-thickness: .*-2", ("--min-thickness", "3=-2")), (2, "--fill-holes: .*0", ("--fill-holes", 0)),
+                (1, "--shell of label 3 is 0; it must be finite, and not 0", ("--shell", "3=0")),
+                (2, "--shell: label 3 is given twice", ("--shell", "3=1", "--shell", "3=2")),
+                (2, "--fill-holes: grey-value images have no labels", ("--fill-holes", 1, "--isovalue", 2)),
+                (2, "--check-image: grey-value images have no labels", ("--check-image", "--isovalue", 2))):
+            self.assert_refused(status, pattern, "--input", "dirty.nrrd", *arguments, "--output", "mesh.vtu")
+        self.call("--input", "dirty.nrrd", "--delta", 2, "--output", "mesh.vtu")
+        self.assert_refused(2, "--shell: only with an image beside the mesh", "--mesh", "mesh.vtu", "--shell", "3=1")
+
+
+class Python(ProgramTestCase):
+    def test_keywords(self):
+        labels, repaired = phantom()
+        image = voxplex.Image(labels)
+        image.names = {**NAMES, 20: "Elsewhere"}
+        image.field_data["LabelColors"] = numpy.eye(3)
+        mesh = voxplex.mesh(image, delta=2, fill_holes=2, remove_spikes=True, min_thickness={"Sheet": 3}, shells={"Ball": 2},
+                            check_image=True)
+        rows = mesh.statistics["repair"]
+        self.assertEqual([(row["what"], row["label"]) for row in rows],
+                         [("fill-holes", 3), ("remove-spikes", 3), ("min-thickness", 7), ("shell", 3), ("thin", 8)])
+        self.assertEqual(mesh.names, {**NAMES, 8: "Ball shell", 20: "Elsewhere"})
+        numpy.testing.assert_array_equal(mesh.field_data["LabelColors"], numpy.insert(numpy.eye(3), 2, numpy.nan, axis=0))
+        self.assertEqual(set(mesh.labels), {3, 7, 8})
+        self.assertAlmostEqual(mesh.statistics["labels"]["3"]["volume"] / numpy.count_nonzero(repaired == 3), 1, delta=0.02)
+        self.assertNotIn("repair", voxplex.mesh(image, delta=3).statistics)
+
+    def test_errors(self):
+        labels = phantom()[0]
+        with self.assertRaisesRegex(voxplex.MeshingError, "shells: the image has no label 5; it has 3, 7"):
+            voxplex.mesh(labels, shells={5: 1})
+        with self.assertRaisesRegex(TypeError, "min_thickness must be a dictionary of lengths"):
+            voxplex.mesh(labels, min_thickness=3)
+
+
+if __name__ == "__main__":
+    main()
