@@ -14,6 +14,7 @@
 #include <boost/program_options.hpp>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -106,7 +107,8 @@ po::options_description DescribeFiles()
       "above which probabilities, from 0 to 1, are inside: of masks, and of DICOM segmentations "
       "(default 0.5)") //
     ("resample-masks",
-      "resample masks on different grids to that with the smallest voxels, by nearest neighbour") //
+      "resample masks whose grids differ by more than whole voxels to the smallest voxels, by "
+      "nearest neighbour") //
     ("mesh", Text("FILE"),
       "a mesh that is there already, in place of making one: a .vtu file of tetrahedra with the "
       "cell array Label, or of pentatopes, which also have the point array Time. It is measured, "
@@ -456,6 +458,21 @@ void TakeLists(const po::variables_map& values, Parameters& p)
   }
 }
 
+/** What has no effect on an image that is only saved or checked. */
+void CheckOptionsOfImage(const po::variables_map& values)
+{
+  static const std::set<std::string_view> ofImage{ "frame-times", "threads" };
+  for (const MeshingParameter& parameter : MeshingParameters())
+  {
+    const std::string option = NameIn(UserInterface::CommandLine, parameter);
+    if (values.count(option) && !ofImage.count(parameter.Name) && !parameter.IsOfRepair())
+    {
+      throw UsageError(
+        "--" + option + ": only for making a mesh, and none is made; name one with --output");
+    }
+  }
+}
+
 /** What has no effect on a mesh that is there, or none without the image. */
 void CheckOptionsOfMesh(const po::variables_map& values)
 {
@@ -496,6 +513,14 @@ Parameters ToParameters(const po::variables_map& values)
   if (values.count("mesh"))
   {
     CheckOptionsOfMesh(values);
+  }
+  const auto isGiven = [&values](const char* option) { return values.count(option) > 0; };
+  constexpr std::array ofMeshes{ "mesh", "output", "plc", "stats", "slices", "slabs", "quality",
+    "hausdorff" };
+  if ((isGiven("save-image") || isGiven("check-image")) &&
+    std::none_of(ofMeshes.begin(), ofMeshes.end(), isGiven))
+  {
+    CheckOptionsOfImage(values);
   }
   p.Inputs = AllGiven(values, "input");
   std::for_each(

@@ -37,6 +37,7 @@
 #include <chrono>
 #include <iostream>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -321,6 +322,24 @@ void RepairImage(const Parameters& p, MeshingInput& input)
   }
 }
 
+/** A shell is meshed if its label is. */
+void KeepShells(const MeshingInput& input, LabelSelection& selection)
+{
+  if (!input.Repair || selection.Labels.empty())
+  {
+    return;
+  }
+  std::set<std::int64_t> labels(selection.Labels.begin(), selection.Labels.end());
+  for (const auto& row : nlohmann::json::parse(input.Repair->ToJSON()))
+  {
+    if (row.contains("new_label") && labels.contains(row["label"].get<std::int64_t>()))
+    {
+      labels.insert(row["new_label"].get<std::int64_t>());
+    }
+  }
+  selection.Labels.assign(labels.begin(), labels.end());
+}
+
 /** What was done to the image, and what is suspicious about it. */
 struct RepairReport
 {
@@ -378,6 +397,7 @@ io::LabelTable NameLabels(const Parameters& p, MeshingInput& input)
   LabelSelection selection = SelectLabels(p, names);
   selection.Thicknesses = input.Selection.Thicknesses;
   selection.Shells = input.Selection.Shells;
+  KeepShells(input, selection);
   input.Selection = selection;
   return names;
 }

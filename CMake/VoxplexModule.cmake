@@ -40,7 +40,7 @@ if (ITK_FOUND)
     ${voxplex_filters}/Private/SegmentationRepair.cxx
     ${voxplex_filters}/Private/ThinRidges.cxx)
 else ()
-  voxplex_skip("repair of segmentations" "ITK was not found (apt-get install libinsighttoolkit5-dev)")
+  voxplex_skip("repair of segmentations" "ITK was not found (apt-get install libinsighttoolkit5-dev), or not for this compiler")
 endif ()
 
 vtk_module_add_module(VTK::Voxplex

@@ -44,6 +44,12 @@ public:
   std::map<std::int64_t, double> Shells;
   std::vector<RepairRow> Rows;
   std::map<std::int64_t, std::string> Names;
+  ///@{
+  /** Of the progress: operations on one label or all, those done, and what was said. */
+  std::size_t Steps = 0;
+  std::size_t Step = 0;
+  double Fraction = 0.0;
+  ///@}
 
   std::string NameOf(std::int64_t label) const
   {
@@ -91,13 +97,16 @@ void RequireLabels(const char* parameter, const std::map<std::int64_t, double>& 
   }
 }
 
-/** A type that has a label: that of an array, or a larger one. */
+/** A type that has all whole numbers up to a label: that of an array, or another one. */
 int TypeFor(vtkDataArray* array, std::int64_t highest)
 {
   const int own = array->GetDataType() == VTK_BIT ? VTK_UNSIGNED_CHAR : array->GetDataType();
   for (const int type : { own, VTK_UNSIGNED_SHORT, VTK_INT })
   {
-    if (static_cast<double>(highest) <= vtkDataArray::GetDataTypeMax(type))
+    constexpr std::int64_t one = 1;
+    if (type == VTK_FLOAT    ? highest <= one << 24
+        : type == VTK_DOUBLE ? highest <= one << 53
+                             : static_cast<double>(highest) <= vtkDataArray::GetDataTypeMax(type))
     {
       return type;
     }
@@ -207,6 +216,7 @@ void FillTable(const std::vector<RepairRow>& rows, const Names& names, vtkTable*
   const auto name = texts("Name");
   const auto voxels = numbers("Voxels", 1);
   const auto places = numbers("Places", 1);
+  const auto largest = numbers("Largest", 1);
   const auto first = numbers("First", 3);
   const auto last = numbers("Last", 3);
   for (const RepairRow& row : rows)
@@ -217,6 +227,7 @@ void FillTable(const std::vector<RepairRow>& rows, const Names& names, vtkTable*
     name->InsertNextValue(found == names.end() ? "" : found->second);
     voxels->InsertNextValue(row.Voxels);
     places->InsertNextValue(row.Places);
+    largest->InsertNextValue(row.Largest);
     for (std::size_t a = 0; a < 3; ++a)
     {
       first->InsertNextValue(row.First[a]);
@@ -233,7 +244,11 @@ std::string Line(const RepairRow& row, const std::string& name)
   std::string text = row.What + ": label " + std::to_string(row.Label) +
     (name.empty() ? "" : " (" + name + ")") + ": " + std::to_string(row.Voxels) +
     (row.Voxels == 1 ? " voxel" : " voxels") +
-    (row.NewLabel == 0 ? "" : " became label " + std::to_string(row.NewLabel));
+    (row.NewLabel == 0 ? "" : " became label " + std::to_string(row.NewLabel)) +
+    (row.IsAll ? ", all that it had" : "") + (row.IsCut ? ", cut at the border of the image" : "") +
+    (row.LeftOut == 0
+        ? ""
+        : ", " + std::to_string(row.LeftOut) + " more would cross labels that have to stay");
   if (row.Places == 0)
   {
     return text;
@@ -244,7 +259,7 @@ std::string Line(const RepairRow& row, const std::string& name)
   }
   text += row.Places == 1      ? ", at ("
     : row.Places == row.Voxels ? ", one at ("
-                               : ", the largest at (";
+                               : ", the largest (" + std::to_string(row.Largest) + ") at (";
   for (std::size_t a = 0; a < 3; ++a)
   {
     text += (a == 0 ? "" : ", ") + std::to_string(row.First[a]) +
@@ -343,7 +358,8 @@ std::string vtkSegmentationRepair::ToJSON()
   for (const RepairRow& row : this->Private->Rows)
   {
     rows.push_back({ { "what", row.What }, { "label", row.Label }, { "voxels", row.Voxels },
-      { "places", row.Places }, { "first", row.First }, { "last", row.Last } });
+      { "places", row.Places }, { "largest", row.Largest }, { "first", row.First },
+      { "last", row.Last } });
     if (row.NewLabel != 0)
     {
       rows.back()["new_label"] = row.NewLabel;
@@ -433,24 +449,33 @@ bool vtkSegmentationRepair::IsIdle() const
 void vtkSegmentationRepair::Change(voxplex::SegmentationRepair& image)
 {
   Internals& own = *this->Private;
-  const auto take = [&](const std::vector<RepairRow>& rows)
+  own.Steps = own.Thicknesses.size() + own.Shells.size() + (this->FillHoles > 0 ? 1 : 0) +
+    (this->RemoveSpikes ? 1 : 0) + (this->CheckImage ? 1 : 0);
+  own.Step = 0;
+  own.Fraction = 0.0;
+  const auto take = [&](const std::vector<RepairRow>& rows, std::size_t steps)
   {
     own.Rows.insert(own.Rows.end(), rows.begin(), rows.end());
+    own.Step += steps;
     this->Proceed(0.0);
   };
   if (this->FillHoles > 0)
   {
-    take(image.FillHoles(this->FillHoles));
+    take(image.FillHoles(this->FillHoles), 1);
   }
   if (this->RemoveSpikes)
   {
-    take(image.RemoveSpikes());
+    take(image.RemoveSpikes(), 1);
   }
-  take(image.Thicken(own.Thicknesses));
+  take(image.Thicken(own.Thicknesses), own.Thicknesses.size());
   const std::int64_t named = own.Names.empty() ? 0 : own.Names.rbegin()->first;
-  take(image.MakeShells(own.Shells,
-    this->FirstShellLabel > 0 ? this->FirstShellLabel
-                              : 1 + std::max(image.Labels().back(), named)));
+  const std::int64_t highest = std::max(image.Labels().back(), named);
+  const std::int64_t first = this->FirstShellLabel > 0 ? this->FirstShellLabel - 1 : highest;
+  if (first > std::numeric_limits<std::int64_t>::max() - std::ssize(own.Shells))
+  {
+    throw InputError("{shell}: there is no label above " + std::to_string(first) + " for a shell.");
+  }
+  take(image.MakeShells(own.Shells, first + 1), own.Shells.size());
   for (const RepairRow& row : std::vector(own.Rows))
   {
     if (row.NewLabel != 0 && own.Names.count(row.Label))
@@ -460,13 +485,17 @@ void vtkSegmentationRepair::Change(voxplex::SegmentationRepair& image)
   }
   if (this->CheckImage)
   {
-    take(image.FindSuspicious(own.Names));
+    take(image.FindSuspicious(own.Names), 1);
   }
 }
 
 void vtkSegmentationRepair::Proceed(double fraction)
 {
-  this->UpdateProgress(fraction);
+  Internals& own = *this->Private;
+  const double done = (static_cast<double>(own.Step) + fraction) /
+    static_cast<double>(std::max<std::size_t>(own.Steps, 1));
+  own.Fraction = std::max(own.Fraction, std::min(done, 1.0)); // a step begins again for each label
+  this->UpdateProgress(own.Fraction);
   if (voxplex::IsStopRequested(this))
   {
     throw voxplex::Cancelled();

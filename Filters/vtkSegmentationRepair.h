@@ -5,14 +5,14 @@
  * @brief   repairs a label image on request, and says what is suspicious about it
  *
  * Operations are off by default, and are done in the order in which they stand here. Cavities and distances are ITK's
- * (BinaryImageToLabelMapFilter, SignedMaurerDistanceMapImageFilter).
+ * (BinaryImageToLabelMapFilter; SignedMaurerDistanceMapImageFilter for thicknesses).
  *
  * @par Input and outputs
  * Port 0: a label image of three dimensions, 0 is background; SetInputArrayToProcess(0, ...) chooses an array, by default
  * the active scalars of points or cells. Frames of a series are repaired one by one. Output 0 is the image with its labels
  * changed, in a larger type if a new label needs it. Output 1 is a vtkTable, a row for each operation and label that it
- * changed: `What`, `Label`, `Name`, `Voxels` that were changed, `Places` (connected sets of them), `First` and `Last`, the
- * corners of the largest place's bounding box as indices of voxels from 0 on.
+ * changed: `What`, `Label`, `Name`, `Voxels` that were changed, `Places` (connected sets of them), `Largest` (voxels
+ * of the largest place), `First` and `Last`, the corners of its bounding box as indices of voxels from 0 on.
  *
  * @par FillHoles
  * A cavity is a set of background voxels, connected through faces, that does not touch the border of the image. Cavities
@@ -33,8 +33,8 @@
  *
  * @par Shell
  * A positive thickness adds a new label around a label: background voxels whose centres are at most so far from the
- * centre of a voxel of the label. Of a negative one, the label's own outer voxels become the new label, by their distance
- * from voxels of other labels or background. New labels are FirstShellLabel and those that follow, by default from the
+ * surface of the label's nearest voxel, half a voxel from its centre. Of a negative one, the label's own voxels become the
+ * new label, by their distance from other labels and background, also from those that the label encloses. New labels are FirstShellLabel and those that follow, by default from the
  * highest label, of voxels and in the field data array `LabelValues`, plus one. `LabelNames` gets "NAME shell".
  *
  * @par CheckImage
@@ -141,7 +141,7 @@ public:
   vtkTable* GetReportTable();
   /** Output 1 in words, a line for each row, but of at most 20 labels for each kind. */
   std::string GetReport();
-  /** Output 1 as JSON: a list of objects with what, label, voxels, places, first, last, and of shells new_label. */
+  /** Output 1 as JSON: a list of objects with what, label, voxels, places, largest, first, last, and of shells new_label. */
   std::string ToJSON();
 
   /** Why the last execution failed; empty if it did not. */

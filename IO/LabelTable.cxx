@@ -116,7 +116,9 @@ void LeaveOutOtherTexts(LabelTable& table, std::vector<std::string>& warnings)
   std::erase_if(table.Entries,
     [&warnings](const auto& row)
     {
-      const bool isText = IsUTF8(row.second.Name);
+      constexpr char escape = '\x1b'; // ISO 2022 changes the character set with it
+      const bool isText =
+        IsUTF8(row.second.Name) && row.second.Name.find(escape) == std::string::npos;
       if (!isText)
       {
         warnings.push_back(

@@ -171,8 +171,9 @@ private:
   std::vector<Said> All;
 };
 
-ImageAnswer ReadMasks(
-  const std::vector<std::string>& paths, const ImageRequest& request, bool resample)
+/** Nothing if their grids differ, and have not been offered. */
+std::optional<ImageAnswer> ReadMasks(
+  const std::vector<std::string>& paths, const ImageRequest& request, bool resample, bool offer)
 {
   const auto read = [&request](const std::string& path)
   {
@@ -181,8 +182,8 @@ ImageAnswer ReadMasks(
     return ReadImage(one);
   };
   const auto shown = [](const std::string& path) { return "'" + path + "'"; };
-  MasksOnGrid masks(request.MaskThreshold);
-  for (std::size_t i = 0; resample && i < paths.size(); ++i)
+  MasksOnGrid masks(resample, request.MaskThreshold);
+  for (std::size_t i = 0; offer && i < paths.size(); ++i)
   {
     masks.OfferGrid(read(paths[i]).Image, shown(paths[i]));
   }
@@ -191,7 +192,10 @@ ImageAnswer ReadMasks(
   {
     ImageAnswer answer = read(path);
     warnings.Add(path, answer.Warnings);
-    masks.Add({ NameOf(path), std::nullopt }, std::move(answer.Image), shown(path));
+    if (!masks.Add({ NameOf(path), std::nullopt }, std::move(answer.Image), shown(path)))
+    {
+      return std::nullopt;
+    }
   }
   return masks.Finish(request.Rule, warnings.Lines());
 }
@@ -216,9 +220,13 @@ ImageAnswer ReadImageOrMasks(
   }
   try
   {
-    ImageAnswer answer = ReadMasks(masks, request, resample);
-    answer.Warnings.insert(answer.Warnings.begin(), warnings.begin(), warnings.end());
-    return answer;
+    std::optional<ImageAnswer> answer = ReadMasks(masks, request, resample, false);
+    if (!answer)
+    {
+      answer = ReadMasks(masks, request, resample, true);
+    }
+    answer->Warnings.insert(answer->Warnings.begin(), warnings.begin(), warnings.end());
+    return std::move(*answer);
   }
   catch (const std::bad_alloc&)
   {

@@ -20,13 +20,14 @@ namespace voxplex::io
  *
  * Several files, and those of a folder that holds images and no DICOM file, are masks: labels 1, 2, ... in the order
  * given (of a folder in that of names, rib_2 before rib_10), named by the files without extensions. They are read one
- * after the other, and each is forgotten before the next. Anything else is read by ReadImage().
+ * after the other, and each is forgotten before the next; if their grids differ, all are read again. Anything else is
+ * read by ReadImage().
  *
  * @param paths not empty
  * @param request its path is not used
- * @param resample whether masks on different grids are resampled to the finest one, by nearest neighbour; all files
- *   are then read twice
- * @throws FileError as ReadImage(), and for grids that differ, time frames, single slices, and values of no mask
+ * @param resample whether masks are resampled to the finest grid, by nearest neighbour, if their grids differ by more
+ *   than whole voxels
+ * @throws FileError as ReadImage(), and for such grids otherwise, time frames, single slices, and values of no mask
  */
 ImageAnswer ReadImageOrMasks(
   const std::vector<std::string>& paths, const ImageRequest& request, bool resample);

@@ -20,8 +20,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <memory>
-#include <optional>
 #include <sstream>
 
 namespace voxplex::io
@@ -29,8 +30,12 @@ namespace voxplex::io
 namespace
 {
 
-/** How far corners of grids may be apart that are meant to be one, in voxels: some headers have single precision. */
+/** How far voxels may be apart that are meant to be one, in voxels: some headers have single precision. */
 constexpr double Tolerance = 0.01;
+
+/** A grid is extended to so many voxels (2 GiB), or to so many times those of the largest mask. */
+constexpr double MostVoxels = 1 << 30;
+constexpr double MostTimes = 8;
 
 /** From indices to places. */
 void GetMatrix(const ScalarImage& image, vtkMatrix4x4* matrix)
@@ -48,16 +53,69 @@ void GetMatrix(const ScalarImage& image, vtkMatrix4x4* matrix)
   }
 }
 
-/** From indices of one grid to those of another. */
-vtkSmartPointer<vtkMatrix4x4> MatrixBetween(const ScalarImage& from, const ScalarImage& to)
+/** From the lowest to the highest coordinates of an image, further out by so many voxels. */
+std::array<std::array<double, 3>, 2> BoxOf(
+  const ScalarImage& image, vtkMatrix4x4* fromIndices, double further)
+{
+  std::array<std::array<double, 3>, 2> box;
+  box[0].fill(std::numeric_limits<double>::infinity());
+  box[1].fill(-std::numeric_limits<double>::infinity());
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    std::array<double, 4> at{ 0, 0, 0, 1 };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      at[axis] = (corner >> axis & 1) != 0 ? image.Dimensions[axis] - 1 + further : -further;
+    }
+    fromIndices->MultiplyPoint(at.data(), at.data());
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      box[0][axis] = std::min(box[0][axis], at[axis]);
+      box[1][axis] = std::max(box[1][axis], at[axis]);
+    }
+  }
+  return box;
+}
+
+/** The translation that is nearest to one between indices. */
+vtkSmartPointer<vtkMatrix4x4> WholeSteps(vtkMatrix4x4* matrix)
+{
+  const auto steps = vtkSmartPointer<vtkMatrix4x4>::New();
+  for (int row = 0; row < 3; ++row)
+  {
+    steps->SetElement(row, 3, std::round(matrix->GetElement(row, 3)));
+  }
+  return steps;
+}
+
+/** From indices of a mask to those of a grid: whole steps, exactly, if they are on one lattice. */
+vtkSmartPointer<vtkMatrix4x4> MatrixBetween(const ScalarImage& mask, const ScalarImage& grid)
 {
   vtkNew<vtkMatrix4x4> places;
   const auto matrix = vtkSmartPointer<vtkMatrix4x4>::New();
-  GetMatrix(from, places);
-  GetMatrix(to, matrix);
+  GetMatrix(mask, places);
+  GetMatrix(grid, matrix);
   matrix->Invert();
   vtkMatrix4x4::Multiply4x4(matrix, places, matrix);
-  return matrix;
+  const vtkSmartPointer<vtkMatrix4x4> steps = WholeSteps(matrix);
+  vtkNew<vtkMatrix4x4> rest;
+  std::transform(
+    matrix->GetData(), matrix->GetData() + 16, steps->GetData(), rest->GetData(), std::minus<>());
+  for (const std::array<double, 3>& apart : BoxOf(mask, rest, 0))
+  {
+    if (!std::all_of(apart.begin(), apart.end(),
+          [](double distance) { return std::abs(distance) <= Tolerance; }))
+    {
+      return matrix;
+    }
+  }
+  return steps;
+}
+
+bool AreOnOneLattice(const ScalarImage& mask, const ScalarImage& grid)
+{
+  const vtkSmartPointer<vtkMatrix4x4> matrix = MatrixBetween(mask, grid);
+  return std::equal(matrix->GetData(), matrix->GetData() + 16, WholeSteps(matrix)->GetData());
 }
 
 std::string Listed(const auto& numbers)
@@ -71,8 +129,8 @@ std::string Listed(const auto& numbers)
   return text.str();
 }
 
-/** "spacing", that of a, that of b: the first that differs. Nothing if all corners are at the same places. */
-std::optional<std::array<std::string, 3>> Difference(const ScalarImage& a, const ScalarImage& b)
+void RefuseOther(const ScalarImage& a, const std::string& shownOfA, const ScalarImage& b,
+  const std::string& shownOfB)
 {
   const auto differs = [](const auto& these, const auto& those, double tolerance)
   {
@@ -85,37 +143,23 @@ std::optional<std::array<std::string, 3>> Difference(const ScalarImage& a, const
     }
     return false;
   };
-  using Texts = std::array<std::string, 3>;
-  if (a.Dimensions != b.Dimensions)
+  const auto refuse = [&](const char* what, const auto& first, const auto& second)
   {
-    return Texts{ "sizes", Listed(a.Dimensions), Listed(b.Dimensions) };
-  }
-  const vtkSmartPointer<vtkMatrix4x4> matrix = MatrixBetween(b, a);
-  bool isSame = true;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    std::array<double, 4> from{ 0, 0, 0, 1 };
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      from[axis] = (corner >> axis & 1) * (b.Dimensions[axis] - 1);
-    }
-    std::array<double, 4> to;
-    matrix->MultiplyPoint(from.data(), to.data());
-    isSame = isSame && !differs(from, to, Tolerance);
-  }
-  if (isSame)
-  {
-    return std::nullopt;
-  }
+    Refuse("masks must be on one grid, but ", shownOfA, " has the ", what, ' ', Listed(first),
+      ", and ", shownOfB, ' ', Listed(second),
+      "; give ResampleMasksOn() to resample them to the finest grid, by nearest neighbour");
+  };
   const double smallest = *std::min_element(a.Spacing.begin(), a.Spacing.end());
   const double steps = *std::max_element(a.Dimensions.begin(), a.Dimensions.end());
   if (differs(a.Spacing, b.Spacing, Tolerance * smallest / steps))
   {
-    return Texts{ "spacing", Listed(a.Spacing), Listed(b.Spacing) };
+    refuse("spacing", a.Spacing, b.Spacing);
   }
-  return differs(a.Direction, b.Direction, Tolerance / steps)
-    ? Texts{ "direction", Listed(a.Direction), Listed(b.Direction) }
-    : Texts{ "origin", Listed(a.Origin), Listed(b.Origin) };
+  if (differs(a.Direction, b.Direction, Tolerance / steps))
+  {
+    refuse("direction", a.Direction, b.Direction);
+  }
+  refuse("origin", a.Origin, b.Origin);
 }
 
 double VoxelVolume(const ScalarImage& image)
@@ -169,7 +213,9 @@ ScalarImage Resample(const ScalarImage& mask, const ScalarImage& grid)
   input->SetDirectionMatrix(1, 0, 0, 0, 1, 0, 0, 0, 1);
   vtkNew<vtkImageReslice> reslice;
   reslice->SetInputData(input);
-  reslice->SetResliceAxes(MatrixBetween(grid, mask));
+  const vtkSmartPointer<vtkMatrix4x4> matrix = MatrixBetween(mask, grid);
+  matrix->Invert();
+  reslice->SetResliceAxes(matrix);
   reslice->SetInterpolationModeToNearestNeighbor();
   reslice->SetOutputOrigin(0, 0, 0);
   reslice->SetOutputSpacing(1, 1, 1);
@@ -203,30 +249,85 @@ std::shared_ptr<void> Allocate(std::size_t bytes)
 void MasksOnGrid::OfferGrid(ScalarImage image, const std::string& shown)
 {
   CheckIsMask(image, shown);
-  this->MayResample = true;
-  if (this->ShownOfGrid.empty() || VoxelVolume(image) < VoxelVolume(this->Grid))
+  image.Scalars.reset();
+  this->Offered.push_back({ std::move(image), shown });
+  const Place& first = this->Offered.front();
+  const Place& last = this->Offered.back();
+  if (!this->MayResample && !AreOnOneLattice(last.Image, first.Image))
   {
-    this->Grid = std::move(image);
-    this->Grid.Scalars.reset();
-    this->ShownOfGrid = shown;
+    RefuseOther(first.Image, first.Shown, last.Image, last.Shown);
   }
 }
 
-void MasksOnGrid::Add(const LabelTable::Entry& entry, ScalarImage image, const std::string& shown)
+const MasksOnGrid::Place& MasksOnGrid::Finest() const
+{
+  return this->MayResample
+    ? *std::min_element(this->Offered.begin(), this->Offered.end(),
+        [](const Place& a, const Place& b) { return VoxelVolume(a.Image) < VoxelVolume(b.Image); })
+    : this->Offered.front();
+}
+
+ScalarImage MasksOnGrid::FindGrid() const
+{
+  ScalarImage grid = this->Finest().Image;
+  std::array<double, 4> first{ 0, 0, 0, 1 };
+  std::array<double, 3> last{};
+  double largest = 0;
+  for (const auto& [image, shown] : this->Offered)
+  {
+    const auto [low, high] = BoxOf(image, MatrixBetween(image, grid), 0.5);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      first[axis] = std::min(first[axis], std::ceil(low[axis] + Tolerance));
+      last[axis] = std::max(last[axis], std::floor(high[axis] - Tolerance));
+    }
+    largest = std::max(largest, static_cast<double>(image.NumberOfVoxels()));
+  }
+  double count = 1;
+  bool isInRange = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double size = last[axis] - first[axis] + 1;
+    count *= size;
+    isInRange = isInRange && size <= std::numeric_limits<int>::max();
+  }
+  if (!isInRange || count > std::max(MostVoxels, MostTimes * largest))
+  {
+    return grid;
+  }
+  vtkNew<vtkMatrix4x4> matrix;
+  GetMatrix(grid, matrix);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    grid.Dimensions[axis] = static_cast<int>(last[axis] - first[axis]) + 1;
+  }
+  matrix->MultiplyPoint(first.data(), first.data());
+  std::copy_n(first.begin(), 3, grid.Origin.begin());
+  return grid;
+}
+
+bool MasksOnGrid::Add(const LabelTable::Entry& entry, ScalarImage image, const std::string& shown)
 {
   CheckIsMask(image, shown);
-  if (this->ShownOfGrid.empty())
+  if (this->Offered.empty())
   {
-    this->Grid = image;
-    this->Grid.Scalars.reset();
-    this->ShownOfGrid = shown;
+    this->OfferGrid(image, shown);
   }
   if (!this->Union)
   {
+    this->Grid = this->FindGrid();
     this->Union.emplace(this->Grid, Allocate, "masks");
   }
   const std::string name = entry.Name.empty() ? shown : entry.Name;
-  this->Resample(name, image, shown);
+  if (image.Dimensions != this->Grid.Dimensions || !MatrixBetween(image, this->Grid)->IsIdentity())
+  {
+    if (this->Offered.size() == 1)
+    {
+      this->OfferGrid(std::move(image), shown); // which may refuse it
+      return false;
+    }
+    this->Resample(name, image, shown);
+  }
   const std::uint32_t label = this->Union->AddName(name);
   if (!entry.Name.empty())
   {
@@ -240,22 +341,17 @@ void MasksOnGrid::Add(const LabelTable::Entry& entry, ScalarImage image, const s
   {
     Refuse(shown, " is no mask, as each of several must be: ", error.what());
   }
+  return true;
 }
 
-/** Unless the mask is on the grid. */
 void MasksOnGrid::Resample(const std::string& name, ScalarImage& image, const std::string& shown)
 {
-  const auto difference = Difference(this->Grid, image);
-  if (!difference)
-  {
-    return;
-  }
-  const auto& [what, first, second] = *difference;
-  RefuseIf(!this->MayResample, "masks must be on one grid, but ", this->ShownOfGrid, " has the ",
-    what, ' ', first, ", and ", shown, ' ', second,
-    "; give ResampleMasksOn() to resample them to the finest grid, by nearest neighbour");
   if (const std::uint64_t lost = CountBeyond(image, this->Grid, this->Threshold))
   {
+    if (!this->MayResample)
+    {
+      RefuseOther(this->Grid, this->Finest().Shown, image, shown);
+    }
     this->Lost += (this->Lost.empty() ? "" : ", ") + Excerpt(name) + " " + std::to_string(lost);
   }
   image = io::Resample(image, this->Grid);
@@ -267,8 +363,8 @@ ImageAnswer MasksOnGrid::Finish(Overlap rule, std::vector<std::string> warnings)
   answer.Warnings = std::move(warnings);
   if (!this->Lost.empty())
   {
-    answer.Warnings.push_back("masks reach beyond the finest grid, that of " + this->ShownOfGrid +
-      ", and lose voxels there: " + this->Lost);
+    answer.Warnings.push_back("masks reach too far beyond the finest grid, that of " +
+      this->Finest().Shown + ", and lose voxels there: " + this->Lost);
   }
   answer.Image = this->Union->Finish(rule, answer.Warnings);
   answer.Labels = std::move(this->Labels);

@@ -25,40 +25,52 @@ namespace voxplex::io
 class MasksOnGrid
 {
 public:
-  /** @param threshold above which probabilities are inside */
-  explicit MasksOnGrid(double threshold = 0.5)
-    : Threshold(threshold)
+  /**
+   * The grid is that of the first mask or, if masks may be resampled to it, by nearest neighbour, that with the smallest
+   * voxels. It is extended to all that are offered, unless they would need too much memory.
+   *
+   * @param threshold above which probabilities are inside
+   */
+  explicit MasksOnGrid(bool mayResample, double threshold = 0.5)
+    : MayResample(mayResample)
+    , Threshold(threshold)
   {
   }
 
   /**
-   * Resampling is asked for by offering all masks before the first is added: the grid is that with the smallest voxels,
-   * and masks on others are resampled to it, by nearest neighbour. Otherwise it is that of the first, and others are
-   * refused.
+   * Of each mask before the first is added; or of none, if all have one grid.
    *
-   * @throws FileError as Add()
+   * @throws FileError for time frames, a single slice, and voxels between those of the grid, unless they are resampled
    */
   void OfferGrid(ScalarImage image, const std::string& shown);
 
   /**
    * @param entry its name may be empty: the label has none then
-   * @throws FileError for time frames, a single slice, another grid, and values of no mask
+   * @return whether it was added: if no grid was offered, only masks on that of the first are
+   * @throws FileError as OfferGrid(), and for values of no mask
    */
-  void Add(const LabelTable::Entry& entry, ScalarImage image, const std::string& shown);
+  bool Add(const LabelTable::Entry& entry, ScalarImage image, const std::string& shown);
 
   /** @param warnings those that there are; what is lost or overlaps is added, a line each */
   ImageAnswer Finish(Overlap rule, std::vector<std::string> warnings);
 
-  /** Where the masks lie; without voxels. */
-  const ScalarImage& GetGrid() const { return this->Grid; }
+  /** Where the masks that were offered lie; without voxels. */
+  ScalarImage FindGrid() const;
 
 private:
+  struct Place
+  {
+    ScalarImage Image; ///< without voxels
+    std::string Shown;
+  };
+
+  const Place& Finest() const;
   void Resample(const std::string& name, ScalarImage& image, const std::string& shown);
 
+  bool MayResample;
   double Threshold;
+  std::vector<Place> Offered;
   ScalarImage Grid;
-  std::string ShownOfGrid; ///< the mask that it is from; empty if there is none
-  bool MayResample = false;
   std::optional<MaskUnion> Union; ///< with the first mask
   LabelTable Labels;
   std::string Lost;

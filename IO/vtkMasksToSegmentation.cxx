@@ -176,21 +176,20 @@ ScalarImage Take(TFunction&& take, const Mask& mask, const std::string& shown, R
   }
 }
 
-/** Those of the first masks. */
-void OfferGrids(MasksOnGrid& joined, const std::vector<Mask>& masks, std::size_t count)
+void OfferGrids(MasksOnGrid& joined, const std::vector<Mask>& masks)
 {
-  for (std::size_t i = 0; i < count; ++i)
+  for (const Mask& mask : masks)
   {
     Reading reading;
-    const std::string shown = Shown(masks, masks[i]);
-    joined.OfferGrid(Take(PlaceOfVTKImage, masks[i], shown, reading), shown);
+    const std::string shown = Shown(masks, mask);
+    joined.OfferGrid(Take(PlaceOfVTKImage, mask, shown, reading), shown);
   }
 }
 
 ImageAnswer Join(const std::vector<Mask>& masks, bool resample, double threshold, Overlap rule)
 {
-  MasksOnGrid joined(threshold);
-  OfferGrids(joined, masks, resample ? masks.size() : 0);
+  MasksOnGrid joined(resample, threshold);
+  OfferGrids(joined, masks);
   std::vector<std::string> warnings;
   for (const Mask& mask : masks)
   {
@@ -285,9 +284,9 @@ int vtkMasksToSegmentation::RequestInformation(
   try
   {
     const std::vector<Mask> masks = MasksOf(inputVector[0], this->MaskNames);
-    MasksOnGrid joined;
-    OfferGrids(joined, masks, this->ResampleMasks ? masks.size() : 1);
-    const auto grid = ToVTKImage(joined.GetGrid(), SpaceOf(masks.front()));
+    MasksOnGrid joined(this->ResampleMasks);
+    OfferGrids(joined, masks);
+    const auto grid = ToVTKImage(joined.FindGrid(), SpaceOf(masks.front()));
     vtkInformation* information = outputVector->GetInformationObject(0);
     information->Set(Pipeline::WHOLE_EXTENT(), grid->GetExtent(), 6);
     information->Set(vtkDataObject::ORIGIN(), grid->GetOrigin(), 3);

@@ -21,10 +21,10 @@
  * @par Output
  * vtkImageData with the point scalars `Labels`, and with the field data of vtkSegmentationReader: `SPACE`,
  * `LabelValues`, `LabelNames`, `LabelColors`. It is in the coordinates of the first mask (LPS, if it does not say), on
- * the grid of the first, or of that with the smallest voxels if ResampleMasks is on.
+ * the grid of the first, or of that with the smallest voxels if ResampleMasks is on, extended to all masks.
  *
  * @par Errors
- * Reported with vtkErrorMacro; GetErrorMessage() keeps the reason, and the output is empty: masks on different grids,
+ * Reported with vtkErrorMacro; GetErrorMessage() keeps the reason, and the output is empty: masks between voxels of others,
  * real numbers that are no probabilities, several arrays that could be meant, no input. What overlaps, and which masks
  * have no voxel, is reported with vtkWarningMacro, and kept for GetWarning().
  *
@@ -75,8 +75,9 @@ public:
 
   ///@{
   /**
-   * Whether masks on different grids are resampled to that with the smallest voxels, by nearest neighbour; a warning
-   * counts the voxels of masks that reach beyond it. Default off: they are an error.
+   * Whether masks on grids that differ by more than whole voxels are resampled to that with the smallest voxels, by
+   * nearest neighbour. A warning counts voxels too far away to extend it (2^30 voxels, and 8 times the largest mask).
+   * Default off: they are an error.
    */
   vtkSetMacro(ResampleMasks, bool);
   vtkGetMacro(ResampleMasks, bool);

@@ -39,8 +39,8 @@
  * What cannot be read is reported with vtkErrorMacro and leaves the output empty; GetErrorMessage()
  * keeps the reason: no such file, unknown format, truncated or damaged data, several components that are
  * not frames, more than four dimensions, a spacing that is not positive, a singular direction matrix,
- * several DICOM series and no SeriesUID, masks on different grids, a file that made the reading process crash or take
- * too long. What was odd but could be read is reported with vtkWarningMacro, and kept for GetWarning().
+ * several DICOM series and no SeriesUID, masks between voxels of others, a file that made the reading process crash or
+ * take too long. What was odd but could be read is reported with vtkWarningMacro, and kept for GetWarning().
  *
  * @par When it reads
  * The whole file is read when the pipeline first asks for information, so that damage is known before
@@ -117,8 +117,8 @@ public:
 
   ///@{
   /**
-   * Whether masks on different grids are resampled to that with the smallest voxels, by nearest neighbour. All files
-   * are then read twice; a warning counts the voxels of masks that reach beyond it. Default off: they are an error.
+   * Whether masks whose grids differ by more than whole voxels are resampled to the smallest voxels, by nearest
+   * neighbour. If grids differ, all files are read twice. Default off: they are an error.
    */
   vtkSetMacro(ResampleMasks, bool);
   vtkGetMacro(ResampleMasks, bool);

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/SegmentationRepair.h"
 
+#include "Base/Error.h"
 #include "Image/Components.h"
+#include "Image/FeatureTransform.h"
 #include "Parallel/ParallelFor.h"
 #include "Private/ThinRidges.h"
 
@@ -40,17 +42,16 @@ struct Faces
 struct SegmentationRepair::Rows
 {
   std::string What;
-  std::map<std::int64_t, std::pair<RepairRow, std::int64_t>>
-    ByLabel; ///< with the largest place's voxels
+  std::map<std::int64_t, RepairRow> ByLabel;
 
   void Add(std::int64_t label, std::int64_t voxels, const VoxelIndex& first, const VoxelIndex& last)
   {
-    auto& [row, largest] = this->ByLabel.try_emplace(label).first->second;
-    if (voxels > largest || (voxels == largest && first < row.First))
+    RepairRow& row = this->ByLabel[label];
+    if (voxels > row.Largest || (voxels == row.Largest && first < row.First))
     {
       row.First = first;
       row.Last = last;
-      largest = voxels;
+      row.Largest = voxels;
     }
     row.What = this->What;
     row.Label = label;
@@ -62,7 +63,7 @@ struct SegmentationRepair::Rows
   {
     for (const auto& [label, row] : this->ByLabel)
     {
-      rows.push_back(row.first);
+      rows.push_back(row);
     }
   }
 };
@@ -109,6 +110,13 @@ VoxelIndex SegmentationRepair::IndexOf(std::int64_t position) const
 {
   const VoxelIndex& n = this->Grid.Dimensions;
   return { position % n[0], position / n[0] % n[1], position / (n[0] * n[1]) };
+}
+
+bool SegmentationRepair::IsAtBorder(const VoxelIndex& voxel) const
+{
+  const VoxelIndex& n = this->Grid.Dimensions;
+  return std::min({ voxel[0], voxel[1], voxel[2], n[0] - 1 - voxel[0], n[1] - 1 - voxel[1],
+           n[2] - 1 - voxel[2] }) == 0;
 }
 
 /** Nobody knows what is beyond the border: it has each label. */
@@ -202,6 +210,16 @@ VoxelBox SegmentationRepair::BoxOf(LabelId id) const
     }
     box.Include({ found - first, row % n[1], row / n[1] });
     box.Include({ last - first, row % n[1], row / n[1] });
+  }
+  return box;
+}
+
+VoxelBox SegmentationRepair::BoxOf(const Positions& voxels) const
+{
+  VoxelBox box = VoxelBox::Empty();
+  for (const std::int64_t voxel : voxels)
+  {
+    box.Include(this->IndexOf(voxel));
   }
   return box;
 }
@@ -400,11 +418,7 @@ std::vector<RepairRow> SegmentationRepair::RemoveSpikes()
   Positions waiting;
   for (const Positions& spike : this->FindSpikes())
   {
-    VoxelBox box = VoxelBox::Empty();
-    for (const std::int64_t voxel : spike)
-    {
-      box.Include(this->IndexOf(voxel));
-    }
+    const VoxelBox box = this->BoxOf(spike);
     removed.Add(
       this->Values[this->Ids[Unsigned(spike.front())]], std::ssize(spike), box.First, box.Last);
     waiting.insert(waiting.end(), spike.begin(), spike.end());
@@ -536,21 +550,61 @@ void SegmentationRepair::LeaveComponents(Positions& taken) const
     });
 }
 
+/** Leaves out the voxels, which are sorted, that no faces connect to the label: they are beyond something else. */
+void SegmentationRepair::LeaveUnconnected(Positions& taken, LabelId id) const
+{
+  std::vector<char> isConnected(taken.size(), 0);
+  std::vector<std::size_t> next;
+  const auto connect = [&](std::size_t at)
+  {
+    if (isConnected[at] == 0)
+    {
+      isConnected[at] = 1;
+      next.push_back(at);
+    }
+  };
+  for (std::size_t at = 0; at < taken.size(); ++at)
+  {
+    this->ForEachNeighbour(taken[at],
+      [&](std::int64_t neighbour)
+      {
+        if (this->Ids[Unsigned(neighbour)] == id)
+        {
+          connect(at);
+        }
+      });
+  }
+  while (!next.empty())
+  {
+    const std::int64_t voxel = taken[next.back()];
+    next.pop_back();
+    this->ForEachNeighbour(voxel,
+      [&](std::int64_t neighbour)
+      {
+        const auto found = std::lower_bound(taken.begin(), taken.end(), neighbour);
+        if (found != taken.end() && *found == neighbour)
+        {
+          connect(Unsigned(found - taken.begin()));
+        }
+      });
+  }
+  std::size_t at = 0;
+  std::erase_if(taken, [&](std::int64_t) { return isConnected[at++] == 0; });
+}
+
 /** Gives voxels another number, and says where they are. */
 RepairRow SegmentationRepair::Change(
   const std::string& what, std::int64_t label, const Positions& voxels, LabelId id)
 {
-  RepairRow row{ what, label, std::ssize(voxels), 0, {}, {}, 0 };
   if (voxels.empty())
   {
-    return row;
+    return { .What = what, .Label = label };
   }
-  VoxelBox box = VoxelBox::Empty();
   for (const std::int64_t voxel : voxels)
   {
     this->Ids[Unsigned(voxel)] = id;
-    box.Include(this->IndexOf(voxel));
   }
+  const VoxelBox box = this->BoxOf(voxels);
   const VoxelIndex size = box.Size();
   std::vector<unsigned char> mask(Unsigned(size[0] * size[1] * size[2]), 0);
   for (const std::int64_t voxel : voxels)
@@ -564,7 +618,7 @@ RepairRow SegmentationRepair::Change(
   {
     rows.Add(label, piece.Voxels, Plus(piece.First, box.First), Plus(piece.Last, box.First));
   }
-  return rows.ByLabel.at(label).first;
+  return rows.ByLabel.at(label);
 }
 
 std::vector<RepairRow> SegmentationRepair::Thicken(const std::map<std::int64_t, double>& lengths)
@@ -580,17 +634,38 @@ std::vector<RepairRow> SegmentationRepair::Thicken(const std::map<std::int64_t, 
   {
     const LabelId id = this->IdOf(label);
     Positions missing;
+    std::int64_t wanted = 0;
     if (id != 0)
     {
       missing = this->FindThickening(id, length, isKept);
+      wanted = std::ssize(missing);
       this->LeaveComponents(missing);
+      this->LeaveUnconnected(missing, id);
     }
     rows.push_back(this->Change("min-thickness", label, missing, id));
+    rows.back().LeftOut = wanted - std::ssize(missing);
   }
   return rows;
 }
 
 //------------------------------------------------------------------------------------------------
+/**
+ * How far a voxel's centre is from the surface of a voxel, which is taken for an ellipsoid: half a voxel from its centre
+ * along each axis. Staircases then have no side that counts more.
+ */
+double SegmentationRepair::DistanceToSurface(const VoxelIndex& offset) const
+{
+  double length2 = 0.0;
+  double voxels2 = 0.0;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const auto voxels = static_cast<double>(offset[a]);
+    length2 += voxels * voxels * this->Spacing[a] * this->Spacing[a];
+    voxels2 += voxels * voxels;
+  }
+  return std::sqrt(length2) * (1.0 - 0.5 / std::sqrt(voxels2));
+}
+
 /** Background around a label, or, of a negative thickness, voxels of the label. */
 SegmentationRepair::Positions SegmentationRepair::FindLayer(LabelId id, double thickness) const
 {
@@ -599,8 +674,9 @@ SegmentationRepair::Positions SegmentationRepair::FindLayer(LabelId id, double t
   const bool isInside = thickness < 0.0;
   const double length = std::abs(thickness);
   const VoxelBox box = this->BoxOf(id);
-  const VoxelBox region = isInside ? box : box.Grown(length, this->Spacing, n);
-  region.ForEachBlock(length, this->Spacing,
+  const double reach = length + *std::max_element(this->Spacing.begin(), this->Spacing.end()) / 2.0;
+  const VoxelBox region = isInside ? box : box.Grown(reach, this->Spacing, n);
+  region.ForEachBlock(reach, this->Spacing,
     [&](const VoxelBox& block)
     {
       this->Progress(static_cast<double>(block.First[2]) / static_cast<double>(n[2]));
@@ -608,26 +684,31 @@ SegmentationRepair::Positions SegmentationRepair::FindLayer(LabelId id, double t
       const auto isCandidate = [&](const VoxelIndex& voxel)
       { return this->Ids[Unsigned(this->PositionOf(voxel))] == (isInside ? id : 0); };
       block.ForEachVoxel([&](const VoxelIndex& voxel) { isAny = isAny || isCandidate(voxel); });
-      const VoxelBox around = block.Grown(length, this->Spacing, n);
-      std::vector<unsigned char> sites;
-      around.ForEachVoxel(
-        [&](const VoxelIndex& voxel)
-        {
-          const bool isLabel = this->Ids[Unsigned(this->PositionOf(voxel))] == id;
-          sites.push_back(isLabel != isInside ? 1 : 0);
-        });
-      if (!isAny || std::find(sites.begin(), sites.end(), 1) == sites.end())
+      if (!isAny)
       {
         return;
       }
+      const VoxelBox around = block.Grown(reach, this->Spacing, n);
       const VoxelIndex size = around.Size();
-      const std::vector<float> distances = DistancesToSites(sites, size, this->Spacing);
+      BitMask<3> sites(size);
+      around.ForEachVoxel(
+        [&](const VoxelIndex& voxel)
+        {
+          if ((this->Ids[Unsigned(this->PositionOf(voxel))] == id) != isInside)
+          {
+            sites.Set(Minus(voxel, around.First));
+          }
+        });
+      const FeatureTransform<3> nearest(sites, this->Spacing, { 1, 1, 1 }, this->Threads);
       block.ForEachVoxel(
         [&](const VoxelIndex& voxel)
         {
           const VoxelIndex at = Minus(voxel, around.First);
-          const double distance = distances[Unsigned(at[0] + size[0] * (at[1] + size[1] * at[2]))];
-          if (isCandidate(voxel) && distance <= length * (1.0 + DistanceRounding))
+          const std::uint32_t site =
+            nearest.Site(Unsigned(at[0] + size[0] * (at[1] + size[1] * at[2])));
+          if (site != FeatureTransform<3>::NoSite && isCandidate(voxel) &&
+            this->DistanceToSurface(Minus(at, nearest.IndexOf(site))) <=
+              length * (1.0 + DistanceRounding))
           {
             layer.push_back(this->PositionOf(voxel));
           }
@@ -644,10 +725,19 @@ std::vector<RepairRow> SegmentationRepair::MakeShells(
   {
     const LabelId id = this->IdOf(label);
     const auto shell = static_cast<LabelId>(this->Values.size());
-    this->Values.push_back(first + std::ssize(rows));
+    const std::int64_t added = first + std::ssize(rows);
+    if (this->IdOf(added) != 0)
+    {
+      throw InputError("{shell}: the new label " + std::to_string(added) + " is in the image.");
+    }
+    this->Values.push_back(added);
     const Positions layer = id == 0 ? Positions() : this->FindLayer(id, thickness);
     rows.push_back(this->Change("shell", label, layer, shell));
     rows.back().NewLabel = this->Values.back();
+    rows.back().IsAll = id != 0 && this->BoxOf(id).Last[0] < 0;
+    rows.back().IsCut = thickness > 0.0 &&
+      std::any_of(layer.begin(), layer.end(),
+        [this](std::int64_t voxel) { return this->IsAtBorder(this->IndexOf(voxel)); });
   }
   return rows;
 }
@@ -656,7 +746,7 @@ std::vector<RepairRow> SegmentationRepair::MakeShells(
 /** All but the largest component of each label. */
 void SegmentationRepair::AddComponents(std::vector<RepairRow>& rows) const
 {
-  if (this->Values.size() == 1)
+  if (std::all_of(this->Ids.begin(), this->Ids.end(), [](LabelId id) { return id == 0; }))
   {
     return;
   }
@@ -725,13 +815,8 @@ void SegmentationRepair::AddContacts(std::vector<RepairRow>& rows) const
 void SegmentationRepair::AddBorders(std::vector<RepairRow>& rows) const
 {
   Rows borders{ "border", {} };
-  const VoxelIndex& n = this->Grid.Dimensions;
-  for (const std::int64_t position : this->FindVoxels(
-         [&n](const VoxelIndex&voxel, LabelId)
-         {
-           return std::min({ voxel[0], voxel[1], voxel[2], n[0] - 1 - voxel[0], n[1] - 1 - voxel[1],
-                    n[2] - 1 - voxel[2] }) == 0;
-         }))
+  for (const std::int64_t position :
+    this->FindVoxels([this](const VoxelIndex&voxel, LabelId) { return this->IsAtBorder(voxel); }))
   {
     const VoxelIndex voxel = this->IndexOf(position);
     borders.Add(this->Values[this->Ids[Unsigned(position)]], 1, voxel, voxel);
@@ -755,8 +840,9 @@ std::vector<RepairRow> SegmentationRepair::FindSuspicious(
     Rows found{ what, {} };
     for (const Positions& piece : pieces)
     {
-      const VoxelIndex first = this->IndexOf(piece.front());
-      found.Add(this->Values[this->Ids[Unsigned(piece.front())]], std::ssize(piece), first, first);
+      const VoxelBox box = this->BoxOf(piece);
+      found.Add(
+        this->Values[this->Ids[Unsigned(piece.front())]], std::ssize(piece), box.First, box.Last);
     }
     found.AppendTo(rows);
   };
@@ -772,7 +858,7 @@ std::vector<RepairRow> SegmentationRepair::FindSuspicious(
   {
     if (this->IdOf(label) == 0 || !occurs[this->IdOf(label)])
     {
-      rows.push_back({ "absent", label, 0, 0, {}, {}, 0 });
+      rows.push_back({ .What = "absent", .Label = label });
     }
   }
   Rows unnamed{ "unnamed", {} };

@@ -26,12 +26,16 @@ struct RepairRow
   std::int64_t Label = 0;
   std::int64_t Voxels = 0;
   std::int64_t Places = 0;
+  std::int64_t Largest = 0; ///< voxels of the place with most of them
   ///@{
-  /** The bounding box of the place with most voxels. */
+  /** Its bounding box. */
   VoxelIndex First{};
   VoxelIndex Last{};
   ///@}
   std::int64_t NewLabel = 0; ///< of a shell
+  bool IsAll = false;        ///< whether the shell took all of the label
+  bool IsCut = false;        ///< whether a shell around the label reaches the border of the image
+  std::int64_t LeftOut = 0;  ///< voxels of a thickness that others keep
 };
 
 /** Called with what is done of an operation, 0 to 1; throws Cancelled to end it. */
@@ -63,6 +67,7 @@ public:
 
   /**
    * A layer around labels, or, of a negative thickness, inside of labels, as new labels first, first + 1, ...
+   * @throws InputError if the image has one of these
    */
   std::vector<RepairRow> MakeShells(
     const std::map<std::int64_t, double>& thicknesses, std::int64_t first);
@@ -80,6 +85,7 @@ private:
 
   std::int64_t PositionOf(const VoxelIndex& voxel) const;
   VoxelIndex IndexOf(std::int64_t position) const;
+  bool IsAtBorder(const VoxelIndex& voxel) const;
   bool Has(const VoxelIndex& voxel, LabelId id) const;
   bool IsInBlock(const VoxelIndex& voxel, LabelId id, unsigned axes) const;
   template <typename Visit>
@@ -87,6 +93,7 @@ private:
   LabelId IdOf(std::int64_t label) const;
   LabelImage<3> ImageOf(const std::vector<LabelId>& ids) const;
   VoxelBox BoxOf(LabelId id) const;
+  VoxelBox BoxOf(const Positions& voxels) const;
 
   /** Each with the label that has most of the faces around it. */
   std::vector<std::pair<Piece, LabelId>> FindCavities(std::int64_t largest) const;
@@ -98,6 +105,8 @@ private:
     std::int64_t position, const std::vector<bool>& removed) const;
   Positions FindThickening(LabelId id, double length, const std::vector<bool>& isKept) const;
   void LeaveComponents(Positions& taken) const;
+  void LeaveUnconnected(Positions& taken, LabelId id) const;
+  double DistanceToSurface(const VoxelIndex& offset) const;
   Positions FindLayer(LabelId id, double thickness) const;
   RepairRow Change(
     const std::string& what, std::int64_t label, const Positions& voxels, LabelId id);

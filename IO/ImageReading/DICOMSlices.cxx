@@ -291,16 +291,31 @@ void FillGaps(
     all.push_back(slice);
   }
   const bool isTold = slices.front().Distance > 0;
-  if (isTold ? areAllApart && slices.size() > 1 : all.size() > slices.size())
+  const bool hasGaps = all.size() > slices.size();
+  const bool areThin = slices.front().Thickness > 0 && slices.front().Thickness < 0.9 * distance;
+  if (isTold ? areAllApart && slices.size() > 1 : hasGaps || areThin)
   {
     std::ostringstream warning;
-    warning << "it leaves out slices, "
-            << (isTold ? "between any two of its frames, by a Spacing Between Slices of "
-                       : "and does not tell their distance, which is taken to be ")
+    warning << (hasGaps ? "it leaves out slices, " : "its slices are thinner than their distance, ")
+            << (isTold       ? "between any two of its frames, by a Spacing Between Slices of "
+                   : hasGaps ? "and does not tell their distance, which is taken to be "
+                             : "which it does not tell and which is taken to be ")
             << distance << " mm" << (isTold ? "" : ", the smallest of its frames");
     warnings.push_back(warning.str());
   }
   slices = std::move(all);
+}
+
+void AddEnds(std::vector<DICOMSlice>& slices, DICOMStack stack, const Vector3& step)
+{
+  if (stack != DICOMStack::Complete)
+  {
+    slices.insert(slices.begin(), slices.front());
+    slices.push_back(slices.back());
+    slices.front().Frame = slices.back().Frame = DICOMSlice::NoFrame;
+    slices.front().Position = Combine(slices.front().Position, -1.0, step);
+    slices.back().Position = Combine(slices.back().Position, 1.0, step);
+  }
 }
 
 } // namespace
@@ -390,7 +405,9 @@ Vector3 ArrangeSlices(
               << " mm was taken, as between columns";
       warnings.push_back(warning.str());
     }
-    return Combine({}, known == 0 ? Length(only.Row) : known, normal);
+    const Vector3 step = Combine({}, known == 0 ? Length(only.Row) : known, normal);
+    AddEnds(slices, stack, step);
+    return step;
   }
   if (stack != DICOMStack::Complete)
   {
@@ -419,6 +436,7 @@ Vector3 ArrangeSlices(
       "slices are missing, damaged or not evenly spaced: ", slices[i].Name, " is ", deviation,
       " mm from where slices ", distance, " mm apart put it; complete or resample the series");
   }
+  AddEnds(slices, stack, step);
   return step;
 }
 
@@ -428,8 +446,8 @@ std::size_t FindSlice(
   const DICOMSlice& first = arranged.front();
   const Vector3 normal = NormalOf(first);
   const double along = Dot(Combine(frame.Position, -1.0, first.Position), normal);
-  const auto index = arranged.size() == 1
-    ? std::size_t{ 0 }
+  const auto index = arranged.size() == 3 // one between the ends
+    ? std::size_t{ 1 }
     : static_cast<std::size_t>(std::round(along / Dot(step, normal)));
   const DICOMSlice& slice = arranged.at(index);
   const Vector3 apart = Combine(frame.Position, -1.0, slice.Position);

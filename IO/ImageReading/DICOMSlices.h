@@ -52,7 +52,8 @@ std::vector<DICOMSlice> ReadSlices(const DICOMDataSet& data, int frames);
 
 /**
  * Sorts slices along their normal. Slices without a frame are put where some have been left out: their distance is told,
- * or the smallest that there is. Of several at one place, where this may be, the first is kept.
+ * or the smallest that there is. Of several at one place, where this may be, the first is kept. If some may have been
+ * left out, one without a frame is put before the first and one after the last.
  *
  * @param warnings receives what was taken for the thickness of one slice that does not tell it
  * @return the step from slice to slice, which need not be along the normal
@@ -62,7 +63,7 @@ Vector3 ArrangeSlices(
   std::vector<DICOMSlice>& slices, DICOMStack stack, std::vector<std::string>& warnings);
 
 /**
- * Which of the arranged slices is at the place of a frame that was arranged with them.
+ * Which of the arranged slices is at the place of a frame of a segment that was arranged with them.
  * @throws FileError: the frame is beside it
  */
 std::size_t FindSlice(

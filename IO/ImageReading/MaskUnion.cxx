@@ -189,7 +189,7 @@ void MaskUnion::WarnOfOverlaps(
       Excerpt(this->NameOf(both.second)) + " (" + std::to_string(count) + ")";
   }
   warnings.push_back(text +
-    (pairs.size() > most ? ", " + std::to_string(pairs.size() - most) + " other pairs" : ""));
+    (pairs.size() > most ? ", " + std::to_string(pairs.size() - most) + " more" : ""));
 }
 
 void MaskUnion::WarnOf(const std::string& what, const std::vector<std::uint32_t>& numbers,

@@ -219,6 +219,25 @@ void TakeLabels(const Volume& volume, Reading& reading)
   LeaveOutOtherTexts(reading.Labels, reading.Warnings);
 }
 
+bool IsZero(std::span<const std::byte> bytes)
+{
+  return std::all_of(
+    bytes.begin(), bytes.end(), [](std::byte byte) { return byte == std::byte(0); });
+}
+
+/**
+ * Takes away the slices that were put at the ends. A frame without a voxel at an end shows that its writer left out
+ * nothing there. One farther in does not: dcmqi writes all slices between the first and the last of a segment.
+ */
+void TakeEndsAway(ScalarImage& image, const std::vector<DICOMSlice>& slices)
+{
+  const std::size_t size = image.NumberOfVoxels() / slices.size() * SizeOf(image.Type);
+  auto* voxels = static_cast<std::byte*>(image.Scalars.get());
+  std::copy_n(voxels + size, size * (slices.size() - 2), voxels);
+  image.Dimensions[2] -= 2;
+  image.Origin = slices[1].Position;
+}
+
 ScalarImage ReadVolume(Volume& volume, Reading& reading)
 {
   ScalarImage image;
@@ -278,6 +297,12 @@ ScalarImage ReadVolume(Volume& volume, Reading& reading)
           static_cast<decltype(zero)>(volume.Background), zero);
       });
   }
+  if (volume.Stack == DICOMStack::LabelMap &&
+    (IsZero({ voxels + bytesOfSlice, bytesOfSlice }) ||
+      IsZero({ voxels + (volume.Slices.size() - 2) * bytesOfSlice, bytesOfSlice })))
+  {
+    TakeEndsAway(image, volume.Slices);
+  }
   WarnOfLoss(volume, reading);
   TakeLabels(volume, reading);
   return image;
@@ -323,6 +348,7 @@ ScalarImage ReadSegments(Volume& volume, Reading& reading)
   const DICOMPixels pixels(data);
   const double threshold = FindThreshold(data, reading.MaskThreshold);
   std::set<std::pair<unsigned, std::size_t>> known;
+  bool areEndsInFile = false;
   std::stable_sort(volume.Slices.begin(), volume.Slices.end(),
     [](const DICOMSlice& a, const DICOMSlice& b) { return a.Segment < b.Segment; });
   for (const DICOMSlice& frame : volume.Slices)
@@ -337,11 +363,18 @@ ScalarImage ReadSegments(Volume& volume, Reading& reading)
       "frames of one");
     const DICOMFrame read = pixels.Read(frame.Frame);
     volume.IsLossy = volume.IsLossy || read.IsLossy;
+    const bool isAtEnd = slice == 1 || slice + 2 == slices.size();
+    areEndsInFile = areEndsInFile || (isAtEnd && IsZero(read.Samples));
     segments.AddSlice(AboveThreshold(read, volume.Format, threshold), slice, segment->second);
   }
   WarnOfLoss(volume, reading);
   TakeLabels(volume, reading);
-  return segments.Finish(reading.Rule, reading.Warnings);
+  image = segments.Finish(reading.Rule, reading.Warnings);
+  if (areEndsInFile)
+  {
+    TakeEndsAway(image, slices);
+  }
+  return image;
 }
 
 /** Files of a folder with one Series Instance UID. */

@@ -17,13 +17,17 @@ from numpy.typing import ArrayLike
 
 from . import program, xmlfiles
 from .errors import FileError, MeshingError
-from .images import Image, Path, place_of, read_nrrd, single_image, space_of, write_nrrd
+from .images import Image, Path, check_shapes, place_of, read_nrrd, single_image, space_of, write_nrrd
 from .meshes import Mesh
 
 if TYPE_CHECKING:
     from typing import Literal
 
 _IS_FULL = re.compile(r"(/voxplex-\w{8}/|cannot write the (image|mesh):).*(No space left|quota exceeded)", re.DOTALL)
+
+_IS_NO_TEXT = re.compile(r"[\0-\x1f\x7f]")
+NAMES = "names.csv"
+"""What a table of names is called in a temporary folder."""
 
 
 def read_segmentation(path: Union[Path, Sequence[Path], Mapping[str, Any]], *, space: Literal["LPS", "RAS"] = "LPS",
@@ -41,7 +45,7 @@ def read_segmentation(path: Union[Path, Sequence[Path], Mapping[str, Any]], *, s
     overlap: which of the masks that have a voxel gets it: the smallest (of equals the first), or the first in order.
         Also of segments of a .seg.nrrd file, and of DICOM segmentations.
     mask_threshold: above which probabilities, from 0 to 1, are inside: of masks, and of DICOM segmentations.
-    resample_masks: whether masks on different grids are resampled to that with the smallest voxels, by nearest
+    resample_masks: whether masks whose voxels differ are resampled to that with the smallest voxels, by nearest
         neighbour, and not refused.
     label_table: a text file with the names and colours of labels, if the image has none itself.
     spacing, origin, direction: in place of what the file says, for formats that do not know them (TIFF), as for
@@ -81,10 +85,11 @@ def _mask_options(masks: Mapping[str, Any], place: Mapping[str, Any], folder: st
     """The options for masks, which are written to the folder; what messages call them; whether one has a space."""
     if not masks:
         raise ValueError("the dictionary of masks is empty")
-    table = os.path.join(folder, "names.csv")
-    options, words, rows, has_space = [], [(f"'{table}'", "the dictionary")], [], False
+    check_shapes(masks)
+    options, has_space = [], False
+    words = [(f"'{os.path.join(folder, NAMES)}'", "the dictionary")]
     for number, (name, mask) in enumerate(masks.items(), 1):
-        if not isinstance(name, str) or not name.strip() or re.search(r"[\0-\x1f\x7f]", name):
+        if not isinstance(name, str) or not name.strip() or _IS_NO_TEXT.search(name):
             raise ValueError(f"masks have names in one line of text, and none is called {name!r}")
         image = single_image(mask, place)
         path = os.path.join(folder, str(number), name.replace("/", "_")[:50] + ".nrrd")  # warnings show its name
@@ -92,13 +97,22 @@ def _mask_options(masks: Mapping[str, Any], place: Mapping[str, Any], folder: st
         write_nrrd(image, path, hidden_is_outside=False, space=image.space or "LPS")
         has_space = has_space or image.space is not None
         words.append((f"'{path}'", f"the mask {name!r}"))
-        rows.append('%d,"%s"\n' % (number, name.replace('"', '""')))
         options.append("--input=" + path)
     if len(masks) == 1:
         options = ["--input=" + os.path.dirname(path)]  # a file that is alone is no mask, but that of a folder is
+    return [*options, *names_option(dict(enumerate(masks, 1)), folder)], words, has_space
+
+
+def names_option(names: Mapping[int, str], folder: str) -> List[str]:
+    """The option for the names of labels, which are written to the folder; none if there are none."""
+    rows = ['%d,"%s"\n' % (value, name.replace('"', '""')) for value, name in sorted(names.items())
+            if value > 0 and name.strip() and not _IS_NO_TEXT.search(name)]
+    if not rows:
+        return []
+    table = os.path.join(folder, NAMES)
     with open(table, "w", encoding="utf-8") as file:
         file.writelines(rows)
-    return [*options, "--label-table=" + table], words, has_space
+    return ["--label-table=" + table]
 
 
 def input_options(paths: Union[Path, Sequence[Path]]) -> List[str]:

@@ -122,6 +122,7 @@ def image_of(image: Any, geometry: Mapping[str, Any], times: Optional[ArrayLike]
         if times is not None:
             raise ValueError("times: not with a dictionary of masks; give a list of dictionaries for frames")
         from .files import read_segmentation
+        check_shapes(image)
         masks = {name: single_image(mask, geometry) for name, mask in image.items()}
         return read_segmentation(masks, space="RAS" if any(mask.space == "RAS" for mask in masks.values()) else "LPS")
     if isinstance(image, (str, os.PathLike)):
@@ -148,6 +149,13 @@ def image_of(image: Any, geometry: Mapping[str, Any], times: Optional[ArrayLike]
                     f"a list or a dictionary of these (not empty), not {type(image).__name__}")
 
 
+def check_shapes(masks: Mapping[str, Any]) -> None:
+    """Arrays have no place that would tell where a smaller one lies."""
+    shapes = sorted({mask.shape for mask in masks.values() if isinstance(mask, numpy.ndarray) and mask.ndim == 3})
+    if len(shapes) > 1:
+        raise ValueError(f"masks that are arrays have different shapes: {shapes[0]} and {shapes[1]}; give images with their place")
+
+
 def single_image(image: Any, geometry: Mapping[str, Any]) -> Image:
     """What image_of() takes, read if it is in a file."""
     from .files import read_segmentation
@@ -157,6 +165,9 @@ def single_image(image: Any, geometry: Mapping[str, Any]) -> Image:
 
 def _series(frames: Sequence[Any], geometry: Mapping[str, Any], times: Optional[ArrayLike]) -> Image:
     """A time series of single images, which must lie at the same place."""
+    if any(isinstance(frame, Mapping) for frame in frames) and \
+            not all(isinstance(frame, Mapping) and list(frame) == list(frames[0]) for frame in frames):
+        raise ValueError("frames that are dictionaries of masks must have the same names, in the same order")
     images = [single_image(frame, geometry) for frame in frames]
     first = images[0]
     for number, image in enumerate(images):
@@ -176,6 +187,8 @@ def _series(frames: Sequence[Any], geometry: Mapping[str, Any], times: Optional[
     if any(mask is not None for mask in masks):
         result.mask = numpy.stack([numpy.zeros(first.voxels.shape, bool) if mask is None else mask for mask in masks])
     result.field_data = first.field_data
+    if isinstance(frames[0], Mapping):
+        result.names = dict(enumerate(frames[0], 1))  # also of masks that are empty at first
     return result
 
 

@@ -140,7 +140,7 @@ class Masks(ProgramTestCase):
     def test_grids(self):
         coarse = images.write_nrrd(self.folder / "coarse.nrrd", images.ball(10, 4.0),
                                    images.Geometry((0.25,) * 3, (2.0,) * 3))
-        self.assert_refused(1, "one grid, but '.*Body.nrrd' has the sizes 20 20 20, and '.*coarse.nrrd' 10 10 10; give "
+        self.assert_refused(1, "one grid, but '.*Body.nrrd' has the spacing 1 1 1, and '.*coarse.nrrd' 2 2 2; give "
                             "--resample-masks", "--input", self.large, coarse, "--delta", "2.5")
         self.mesh("--input", coarse, self.small, "--resample-masks", "--delta", "2.5", "--output", "m.vtu",
                   warning="masks overlap")

@@ -20,12 +20,14 @@ from pydicom.sequence import Sequence
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import images
+import voxplex
 from iotesting import FolderTestCase, table_of, warnings_of
 from TestDICOM import (BIG_ENDIAN, DEFLATED, EXPLICIT, IMPLICIT, LABEL_MAP, NORMAL, OBLIQUE, RLE, SEGMENTATION, SERIES, STEP,
                        TILTED, assign, item, numbers, place, save)
 
 HERE = Path(__file__).resolve().parent
 SMALLEST, ORDER = 0, 1
+NONE, WITHIN, ALL = range(3)  # of the frames without a voxel; within: those between the first and the last of a segment
 JPEG_LS, DEFLATED_FRAMES = "1.2.840.10008.1.2.4.80", "1.2.840.10008.1.2.8.1"
 SHAPE = (6, 9, 7)  # frames of 63 bits
 Z, Y, X = np.indices(SHAPE)
@@ -65,13 +67,13 @@ def runs_of(frame):
     return struct.pack("<16I", 1, 64, *[0] * 14) + b"".join(b"\0%c" % byte for byte in frame)
 
 
-def write(folder, masks=APART, step=STEP, told=True, syntax=EXPLICIT, convert=None, empty=False, most=None, segments=None,
+def write(folder, masks=APART, step=STEP, told=True, syntax=EXPLICIT, convert=None, empty=NONE, most=None, segments=None,
           change=None, shared=False, pack=None, **tags):
     """A file of frames in an order of no meaning. masks: of booleans; with most, of the greatest fraction, of fractions
-    from 0 to 1. empty: whether there are frames without a voxel. shared: whether all frames are of one segment. pack: makes a
+    from 0 to 1. empty: which frames without a voxel there are. shared: whether all frames are of one segment. pack: makes a
     fragment of the bytes of a frame."""
     frames = [(number, k, image) for number, mask in enumerate(masks, 1) for k, image in enumerate(mask)
-              if empty or image.any()]
+              if image.any() or empty == ALL or empty == WITHIN and mask[:k].any() and mask[k:].any()]
     frames = [frames[i] for i in np.random.default_rng(2).permutation(len(frames))]
     pixels = np.stack([image for _, _, image in frames])
     bits = 1 if most is None else 8
@@ -173,7 +175,8 @@ def steps_of(step=STEP):
 
 
 class SegmentsTestCase(FolderTestCase):
-    def compare(self, image, labels, origin=OBLIQUE.origin, steps=steps_of()):
+    def compare(self, image, labels, origin=OBLIQUE.origin, steps=steps_of(), ends=1):
+        """ends: empty slices at each end that are not in the file."""
         found, expected = measures_of_image(image), measures_of_array(labels, origin, steps)
         self.assertEqual({label: count for label, (count, _) in found.items()},
                          {label: count for label, (count, _) in expected.items()})
@@ -182,12 +185,12 @@ class SegmentsTestCase(FolderTestCase):
             self.assertLess(np.linalg.norm(found[label][1] - centroid), tolerance, label)
         used = np.flatnonzero(labels.any(axis=(1, 2)))
         voxels = vtk_to_numpy(image.GetPointData().GetArray("Labels")).reshape(image.GetDimensions()[::-1])
-        if len(voxels) < len(labels):  # the slices that are left out at the ends
+        if len(voxels) - 2 * ends < len(labels):  # the slices that are left out at the ends
             labels = labels[used[0]:used[-1] + 1]
-        np.testing.assert_array_equal(voxels, labels)
+        np.testing.assert_array_equal(voxels, np.pad(labels, ((ends, ends), (0, 0), (0, 0))))
 
 
-# name, options, what is expected other than LABELS with STEP: labels, step
+# name, options, what is expected other than LABELS with STEP and an empty slice at each end: labels, step, ends
 WIDE = tuple(np.tile(mask, (1, 6, 6)) for mask in APART)  # GDCM makes nothing of small frames
 FRACTIONS = [np.where(mask, 0.8, 0.1) for mask in APART]
 SOUND = (
@@ -195,7 +198,10 @@ SOUND = (
     ("implicit", {"syntax": IMPLICIT}, {}),
     ("deflated", {"syntax": DEFLATED}, {}),
     ("big endian, in words", {"syntax": BIG_ENDIAN}, {}),
-    ("all slices, also empty ones", {"empty": True}, {}),
+    ("all slices, also empty ones", {"empty": ALL}, {"ends": 0}),
+    ("all slices of a gantry tilt", {"empty": ALL, "step": TILTED}, {"step": TILTED, "ends": 0}),
+    ("all slices, of which the last are empty", {"masks": (LIVER,), "empty": ALL}, {"labels": map_of((LIVER,)), "ends": 0}),
+    ("all slices between the ends of a segment", {"empty": WITHIN}, {}),
     ("gaps, a distance that is told", {"masks": (SPLEEN, LIVER & (Z == 2))}, {"labels": map_of((SPLEEN, LIVER & (Z == 2)))}),
     ("bits in runs", {"syntax": RLE, "pack": runs_of}, {}),
     ("bits, each frame deflated", {"syntax": DEFLATED_FRAMES, "pack": deflated}, {}),
@@ -218,6 +224,12 @@ MAPS = (
     ("label map, deflated", {"syntax": DEFLATED}, {}),
     ("label map, another background", {"labels": np.where(LABELS > 0, LABELS, 99), "PixelPaddingValue": 99,
      "segments": [segment(1), segment(2)]}, {}),
+    ("label map with empty slices", {"labels": LABELS * (Z % 4 > 0)}, {"labels": LABELS * (Z % 4 > 0), "ends": 0}),
+    ("label map, 16 bits, with empty slices", {"labels": LABELS * 300 * (Z < 5), "dtype": "<u2",
+     "segments": [segment(600, "x")]}, {"labels": LABELS * 300 * (Z < 5), "ends": 0}),
+    ("label map with an empty slice within", {"labels": LABELS * (Z != 3)}, {"labels": LABELS * (Z != 3)}),
+    ("label map with another background and empty slices", {"labels": np.where(LABELS * (Z < 5) > 0, LABELS, 99),
+     "PixelPaddingValue": 99, "segments": [segment(1), segment(2)]}, {"labels": LABELS * (Z < 5), "ends": 0}),
 )
 
 
@@ -252,7 +264,7 @@ REFUSED = (
                                                       {"PlaneOrientationSequence": None})}, "it has no Image Orientation"),
     ("an orientation of its own", {"change": frame(3, PlaneOrientationSequence=item(
         ImageOrientationPatient=[1, 0, 0, 0, 1, 0]))}, "frame . and frame . differ in Image Orientation"),
-    ("a frame beside that of another segment", {"empty": True, "change": beside},
+    ("a frame beside that of another segment", {"empty": ALL, "change": beside},
      "frame 12 is 3 mm beside another one, frame"),
     ("a frame between the others", {"change": frame(0, PlanePositionSequence=item(
         ImagePositionPatient=numbers(place(1.4))))}, "slices are missing, damaged or not evenly spaced"),
@@ -293,18 +305,38 @@ class TestSegments(SegmentsTestCase):
             with self.subTest(name):
                 image = self.read(write(self.folder_of(name), **{"segments": [segment(1), segment(2)][:len(options.get(
                     "masks", APART))], **options}))
-                self.compare(image, expected.get("labels", LABELS), steps=steps_of(expected.get("step", STEP)))
+                self.compare(image, expected.get("labels", LABELS), steps=steps_of(expected.get("step", STEP)),
+                             ends=expected.get("ends", 1))
 
     def test_maps(self):
         for name, options, expected in MAPS:
             with self.subTest(name):
                 image = self.read(write_map(self.folder_of(name), **{"labels": LABELS, **options}))
-                self.compare(image, expected.get("labels", LABELS))
+                self.compare(image, **{"labels": LABELS, **expected})
 
     def test_refused(self):
         for name, options, words in REFUSED:
             with self.subTest(name):
                 self.refused("^cannot read '.*': (.|\n)*(" + words + ")", write(self.folder_of(name), **options))
+
+    def test_object_at_the_ends(self):
+        """It is not at the border of the image, and has a shell there, the same as if no slice is left out."""
+        z, y, x = np.indices((15, 41, 53))
+        ball = (0.5 * (x - 26)) ** 2 + (0.75 * (y - 20)) ** 2 + (2 * (z - 7)) ** 2 < 100
+        shells = []
+        for empty in (NONE, ALL):
+            image = self.read(write(self.folder, (ball,), empty=empty))
+            self.assertEqual(image.GetDimensions()[2], 15 if empty == ALL else 11)
+            check, shell = voxplex.vtkSegmentationRepair(), voxplex.vtkSegmentationRepair()
+            check.SetCheckImage(True)
+            shell.SetShell(1, 2.0)
+            for repair in (check, shell):
+                repair.SetInputData(image)
+                repair.Update()
+            self.assertNotIn("border", [row["what"] for row in json.loads(check.ToJSON())])
+            shells.append(measures_of_image(shell.GetOutput())[2])
+        self.assertEqual(shells[0][0], shells[1][0])
+        np.testing.assert_allclose(shells[0][1], shells[1][1], atol=1e-6)
 
     def test_distance_that_is_not_told(self):
         spleen, liver = SPLEEN, LIVER & (Z == 2)
@@ -315,6 +347,14 @@ class TestSegments(SegmentsTestCase):
             self.assertEqual(warnings_of(reader), [
                 f"{path}: it leaves out slices, and does not tell their distance, which is taken to be 2 mm, the smallest "
                 "of its frames"])
+
+    def test_thin_slices_at_a_distance(self):
+        def thin(data):
+            data.SharedFunctionalGroupsSequence[0].PixelMeasuresSequence[0].SliceThickness = "2"
+        path = write(self.folder, (SPLEEN,), told=False, change=thin)
+        self.assertEqual(warnings_of(self.reader(path)), [
+            f"{path}: its slices are thinner than their distance, which it does not tell and which is taken to be 8 mm, the "
+            "smallest of its frames"])
 
     def test_distance_that_is_told(self):
         """It may be wrong if no slice has a neighbour."""
@@ -364,6 +404,13 @@ class TestSegments(SegmentsTestCase):
             1: ("Foie, c\u00f4t\u00e9 gauche", tuple(round(part, 6) for part in self.rgb(0x8A8A, 0xB000, 0x9000)))})
         path = write(self.folder, segments=[segment(1, "\u809d"), segment(2)], SpecificCharacterSet="ISO_IR 192")
         self.assertEqual(table_of(self.read(path)), {1: ("\u809d", None), 2: ("Spleen", None)})
+
+        def japanese(data):
+            data.SpecificCharacterSet = ["ISO 2022 IR 6", "ISO 2022 IR 87"]
+        path = write(self.folder, segments=[segment(1, "\u809d\u81d3"), segment(2)], change=japanese)
+        reader = self.reader(path)
+        self.assertEqual(table_of(reader.GetOutput()), {2: ("Spleen", None)})
+        self.assertEqual(warnings_of(reader), [f"{path}: the name of label 1 is not in UTF-8, and is not used"])
 
     def rgb(self, *stored):
         """CIE 15 and IEC 61966-2-1."""
@@ -445,7 +492,8 @@ class OtherWriters(SegmentsTestCase):
             with self.subTest(name):
                 reader = self.reader(HERE / "highdicom" / (name + ".dcm"))
                 self.assertEqual(reader.GetErrorMessage(), "")
-                self.compare(reader.GetOutput(), map_of(expected), made.ORIGIN, made.DIRECTION * made.SPACING)
+                self.compare(reader.GetOutput(), map_of(expected), made.ORIGIN, made.DIRECTION * made.SPACING,
+                             ends=int(name != "binary-jpeg2000"))  # which has all frames
                 both = (expected[0] & expected[-1]).sum()
                 told = f"segments overlap in {both} voxels, which the smallest of them gets: Liver and Tumour ({both})"
                 self.assertEqual(warnings_of(reader), [f"{reader.GetFileName()}: {told}"] if both else [])

@@ -221,12 +221,18 @@ class Files(unittest.TestCase):
         self.assertEqual((one.names, set(one.voxels.flat)), ({1: "only"}, {0, 1}))
         frames = voxplex.mesh([{"ball": frame} for frame in beating()], 2.0)
         self.assertEqual((frames.cells.shape[1], frames.names), (5, {1: "ball"}))
+        series = [{"none": 0 * frame, "ball": frame} for frame in beating()]
+        self.assertEqual(voxplex.mesh(series, 2.0).names, {1: "none", 2: "ball"})
+        series[1] = {"ball": series[1]["ball"], "none": series[1]["none"]}
+        for wrong in (series, [series[0], beating()[1]]):
+            with self.assertRaisesRegex(ValueError, "must have the same names, in the same order"):
+                voxplex.mesh(wrong, 2.0)
 
     def test_masks_on_other_grids(self):
         fine, coarse = numpy.ones((6, 8, 10), bool), numpy.ones((2, 4, 5), bool)
         masks = {"fine": voxplex.Image(fine), "coarse": voxplex.Image(coarse, spacing=(2, 2, 2), space="RAS", origin=(-9, -7, 0),
                                                                       direction=numpy.diag((1, 1, 1)))}
-        with self.assertRaisesRegex(voxplex.FileError, "one grid, but the mask 'fine' has the sizes 10 8 6, and the mask 'coarse' 5 4 2; "
+        with self.assertRaisesRegex(voxplex.FileError, "one grid, but the mask 'fine' has the spacing 1 1 1, and the mask 'coarse' 2 2 2; "
                                                        "give read_segmentation.*resample_masks=True"):
             voxplex.read_segmentation(masks)
         with self.assertWarnsRegex(voxplex.MeshingWarning, "fine and coarse"):
@@ -242,7 +248,7 @@ class Files(unittest.TestCase):
         mask = self.labels > 0
         for masks, error, words in (
                 ({}, ValueError, "dictionary of masks is empty"), ({1: mask}, ValueError, "none is called 1"),
-                ({"a\nb": mask}, ValueError, "in one line"), ({"a": mask, "b": mask[1:]}, voxplex.FileError, "the mask 'b' 20 16 11"),
+                ({"a\nb": mask}, ValueError, "in one line"), ({"a": mask, "b": mask[1:]}, ValueError, "different shapes: .*; give images"),
                 ({"a": mask, "b": beating()}, voxplex.FileError, "the mask 'b' is no mask.* 4 time frames"),
                 ({"a": mask, "b": mask * 2.5}, voxplex.FileError, "the mask 'b' is no mask.* 2.5, and the real numbers"),
                 ({"a": "none.nrrd"}, FileNotFoundError, "none.nrrd"), ({"a": None}, TypeError, "dictionary of these")):

@@ -67,21 +67,21 @@ class Program(ProgramTestCase):
     def test_check_makes_no_mesh(self):
         told = self.run_program("--check-image")
         self.assertEqual(told, "cavities: label 3 (Ball): 2 voxels, at (14-15, 14, 14)\n"
-                               "spikes: label 3 (Ball): 5 voxels, at (25, 14, 14)\n"
-                               "thin: label 3 (Ball): 5 voxels, at (25, 14, 14)\n"
-                               "thin: label 7 (Sheet): 900 voxels, at (5, 5, 30)\n")
+                               "spikes: label 3 (Ball): 5 voxels, at (25-29, 14, 14)\n"
+                               "thin: label 3 (Ball): 5 voxels, at (25-29, 14, 14)\n"
+                               "thin: label 7 (Sheet): 900 voxels, at (5-34, 5-34, 30)\n")
         self.assertEqual(self.run_program("--check-image", *OPTIONS).splitlines()[3:], [])
         self.write(self.repaired)
         self.assertEqual(self.run_program("--check-image"), "Nothing is suspicious.\n")
 
     def test_mesh(self):
         """A mesh of the repaired image, the report in the statistics, and the same image to compare with."""
-        told = self.run_program(*OPTIONS, "--shell", "Ball=3", "--check-image", "--labels", "Ball,Ball shell", "--delta", 2,
+        told = self.run_program(*OPTIONS, "--shell", "Ball=3", "--check-image", "--labels", "Ball", "--delta", 2,
                                 "--output", "mesh.vtu", "--stats", "mesh.json", "--quality")
         self.assertIn("\nfill-holes: label 3 (Ball): 2 voxels, at (14-15, 14, 14)\n", told)
         figures = json.loads((self.folder / "mesh.json").read_text())
         self.assertEqual([row["what"] for row in figures["repair"]], ["fill-holes", "remove-spikes", "min-thickness", "shell"])
-        self.assertEqual(figures["repair"][0], {"what": "fill-holes", "label": 3, "voxels": 2, "places": 1,
+        self.assertEqual(figures["repair"][0], {"what": "fill-holes", "label": 3, "voxels": 2, "places": 1, "largest": 2,
                                                 "first": [14, 14, 14], "last": [15, 14, 14]})
         self.assertEqual(figures["repair"][3]["new_label"], 8)
         self.assertEqual({name: figures["parameters"][name] for name in ("fill_holes", "min_thickness", "shell")},
@@ -110,7 +110,20 @@ class Program(ProgramTestCase):
         numpy.testing.assert_array_equal(numpy.where(clean == highest + 1, 0, clean), frames)
         self.assertGreater(frames[0, 6, 6, 6], 0)
 
+    def test_series_with_an_empty_frame(self):
+        frames = images.moving_balls(size=12, radius=3.0)
+        frames[1] = 0
+        images.write_nrrd(self.folder / "dirty.nrrd", frames)
+        told = self.run_program("--shell", "6=1", "--check-image", "--save-image", "clean.nrrd")
+        self.assertIn("time 1: shell: label 6: 0 voxels", told)
+        clean = voxplex.read_segmentation(self.folder / "clean.nrrd").voxels
+        self.assertEqual((int(clean[1].max()), int(clean[2].max())), (0, int(frames.max()) + 1))
+
     def test_refused(self):
+        for option, arguments in (("--labels", ("--labels", "Nonsense", "--save-image", "out.nrrd")),
+                                  ("--min-component-volume", ("--min-component-volume", 9, "--save-image", "out.nrrd")),
+                                  ("--delta", ("--delta", 3, "--check-image"))):
+            self.assert_refused(2, option + ": only for making a mesh, and none is made", "--input", "dirty.nrrd", *arguments)
         for status, pattern, arguments in (
                 (1, "cannot repair 'dirty.nrrd': --shell: the image has no label 5; it has 3, 7", ("--shell", "5=1")),
                 (2, "no label of the image is called 'Bal'; did you mean 'Ball'", ("--min-thickness", "Bal=1")),
@@ -134,15 +147,24 @@ class Python(ProgramTestCase):
                             check_image=True)
         rows = mesh.statistics["repair"]
         self.assertEqual([(row["what"], row["label"]) for row in rows],
-                         [("fill-holes", 3), ("remove-spikes", 3), ("min-thickness", 7), ("shell", 3), ("thin", 8)])
+                         [("fill-holes", 3), ("remove-spikes", 3), ("min-thickness", 7), ("shell", 3)])
         self.assertEqual(mesh.names, {**NAMES, 8: "Ball shell", 20: "Elsewhere"})
         numpy.testing.assert_array_equal(mesh.field_data["LabelColors"], numpy.insert(numpy.eye(3), 2, numpy.nan, axis=0))
         self.assertEqual(set(mesh.labels), {3, 7, 8})
+        self.assertEqual(mesh.statistics["labels"]["8"]["name"], "Ball shell")
         self.assertAlmostEqual(mesh.statistics["labels"]["3"]["volume"] / numpy.count_nonzero(repaired == 3), 1, delta=0.02)
         self.assertNotIn("repair", voxplex.mesh(image, delta=3).statistics)
 
+    def test_name_of_a_label_that_is_absent(self):
+        labels = phantom()[0]
+        mesh = voxplex.mesh(voxplex.Image(labels, names={3: "Ball", 8: "Far"}), delta=3, shells={7: 1})
+        self.assertEqual(mesh.names, {3: "Ball"})
+        self.assertIn(8, mesh.labels)
+
     def test_errors(self):
         labels = phantom()[0]
+        with self.assertRaisesRegex(voxplex.ArgumentError, "no label is called 'Bal'"):
+            voxplex.mesh(voxplex.Image(labels, names=NAMES), shells={"Bal": 1})
         with self.assertRaisesRegex(voxplex.MeshingError, "shells: the image has no label 5; it has 3, 7"):
             voxplex.mesh(labels, shells={5: 1})
         with self.assertRaisesRegex(TypeError, "min_thickness must be a dictionary of lengths"):

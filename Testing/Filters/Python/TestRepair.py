@@ -37,6 +37,15 @@ def array_of(image, like):
     return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(like.shape)
 
 
+def distance_to_surface(sites, spacing):
+    """Of each voxel's centre from the surface of the nearest site, half a voxel from its centre."""
+    lengths = numpy.array(spacing[::-1])[:, None, None, None]
+    nearest = ndimage.distance_transform_edt(~sites, sampling=spacing[::-1], return_distances=False, return_indices=True)
+    offsets = numpy.indices(sites.shape) - nearest
+    with numpy.errstate(divide="ignore", invalid="ignore"):
+        return numpy.linalg.norm(offsets * lengths, axis=0) * (1 - 0.5 / numpy.linalg.norm(offsets, axis=0))
+
+
 class Repair(unittest.TestCase):
     def repaired(self, labels, place=None, **properties):
         """The voxels, and the rows of the report."""
@@ -60,11 +69,11 @@ class Holes(Repair):
         found, rows = self.repaired(labels, FillHoles=9)
         self.assertEqual(found[10, 11, 11], 1)
         self.assertEqual(found[20, 18, 12], 0)
-        self.assertEqual(rows, [{"what": "fill-holes", "label": 1, "voxels": 9, "places": 1, "first": [10, 10, 10],
+        self.assertEqual(rows, [{"what": "fill-holes", "label": 1, "voxels": 9, "places": 1, "largest": 9, "first": [10, 10, 10],
                                  "last": [12, 12, 10]}])
         found, rows = self.repaired(labels, FillHoles=10)
         self.check_same(found, filled)
-        self.assertEqual((rows[0]["voxels"], rows[0]["places"], rows[0]["first"]), (19, 2, [10, 18, 20]))
+        self.assertEqual((rows[0]["voxels"], rows[0]["places"], rows[0]["largest"], rows[0]["first"]), (19, 2, 10, [10, 18, 20]))
 
     def test_only_what_is_enclosed(self):
         """Not a dent, a cavity at the border of the image, or an island; corners enclose."""
@@ -93,7 +102,7 @@ class Spikes(Repair):
         labels[14, 14, 20:28] = 1
         found, rows = self.repaired(labels, RemoveSpikes=True)
         self.check_same(found, ball())
-        self.assertEqual(rows, [{"what": "remove-spikes", "label": 1, "voxels": 3, "places": 1, "first": [25, 14, 14],
+        self.assertEqual(rows, [{"what": "remove-spikes", "label": 1, "voxels": 3, "places": 1, "largest": 3, "first": [25, 14, 14],
                                  "last": [27, 14, 14]}])
 
     def test_what_stays(self):
@@ -221,6 +230,22 @@ class Thickness(Repair):
         self.assertEqual([(row["label"], row["voxels"] > 0) for row in rows], [(1, True), (2, False)])
 
 
+    def test_others_that_stay(self):
+        """Neither pieces beyond a label that would lose all, nor beyond one that is thickened itself."""
+        core = numpy.where(ball(9, 40) > 0, 3, 0) + 4 * ball(4, 40)
+        found, rows = self.repaired(core, MinimumThickness={7: 20.0})
+        self.check_same(found, core)
+        self.assertEqual(rows[0]["voxels"], 0)
+        repair = filter_of(voxplex.Image(core).to_vtk(), MinimumThickness={7: 20.0})
+        repair.Update()
+        self.assertRegex(repair.GetReport(), r": 0 voxels, \d+ more would cross labels that have to stay\n$")
+        sheets = numpy.zeros((20, 20, 20), numpy.uint8)
+        sheets[10] = 1
+        sheets[11] = 2
+        found, _ = self.repaired(sheets, MinimumThickness={1: 5.0, 2: 5.0})
+        self.assertEqual(list(found[:, 10, 10][8:14]), [1, 1, 1, 2, 2, 2])
+
+
 class Shells(Repair):
     def test_against_scipy(self):
         rng = numpy.random.RandomState(2)
@@ -229,13 +254,55 @@ class Shells(Repair):
         labels[25:][labels[25:] == 1] = 4
         for spacing in ((1.0, 1.0, 1.0), (0.7, 1.1, 2.3)):
             place = {"spacing": spacing}
-            away = ndimage.distance_transform_edt(labels != 1, sampling=spacing[::-1])
-            inside = ndimage.distance_transform_edt(labels == 1, sampling=spacing[::-1])
+            away = distance_to_surface(labels == 1, spacing)
+            inside = distance_to_surface(labels != 1, spacing)
             found, rows = self.repaired(labels, place, Shell={1: 4.0})
             self.check_same(found, numpy.where((labels == 0) & (away <= 4.0), 5, labels))
             self.assertEqual((rows[0]["what"], rows[0]["label"], rows[0]["new_label"]), ("shell", 1, 5))
             found, _ = self.repaired(labels, place, Shell={1: -3.0})
             self.check_same(found, numpy.where((labels == 1) & (inside <= 3.0), 5, labels))
+
+    def test_thickness(self):
+        """Around a ball as asked, or up to a third of a voxel more, and closed, also with thick slices."""
+        for spacing in ((1.0, 1.0, 1.0), (0.7, 0.7, 0.7), (0.7, 0.7, 2.5)):
+            size = numpy.array([round(30 / length) for length in spacing[::-1]])
+            where = (numpy.indices(size).T - (size - 1) / 2).T * numpy.array(spacing[::-1])[:, None, None, None]
+            labels = (numpy.linalg.norm(where, axis=0) <= 10.0).astype(numpy.uint8)
+            found, rows = self.repaired(labels, {"spacing": spacing}, Shell={1: 2.0})
+            volume = numpy.array([(found == 1).sum(), (found > 0).sum()]) * numpy.prod(spacing)
+            inner, outer = numpy.cbrt(volume * 3 / 4 / numpy.pi)
+            self.assertAlmostEqual(outer - inner, 2.17, delta=0.17)
+            self.assertFalse(((found[1:] == 0) & (found[:-1] == 1)).any(), "closed")
+
+    def test_types_and_numbers(self):
+        for kind, label in ((numpy.float32, 2 ** 24), (numpy.float64, 2 ** 53), (numpy.int64, 2 ** 62)):
+            found, _ = self.repaired((box() * label).astype(kind), Shell={label: 1.0})
+            self.assertEqual(set(numpy.unique(found)), {0, label, label + 1})
+        for properties, why in (({"Shell": {2 ** 63 - 1: 1.0}}, "no label above 9223372036854775807"),
+                                ({"Shell": {2 ** 63 - 1: 1.0}, "FirstShellLabel": 5}, "the new label 5 is in the image")):
+            labels = box().astype(numpy.int64) * (2 ** 63 - 1)
+            labels[0, 0, 0] = 5
+            repair = filter_of(voxplex.Image(labels).to_vtk(), **properties)
+            repair.Update()
+            self.assertIn(why, repair.GetErrorMessage())
+
+    def test_progress(self):
+        repair = filter_of(voxplex.Image(box()).to_vtk(), FillHoles=1, MinimumThickness={1: 3.0}, Shell={1: 1.0}, CheckImage=True)
+        said = []
+        repair.AddObserver("ProgressEvent", lambda *_: said.append(repair.GetProgress()))
+        repair.Update()
+        self.assertEqual((sorted(said), max(said)), (said, 1.0))
+
+    def test_all_of_a_label(self):
+        repair = filter_of(voxplex.Image(box()).to_vtk(), Shell={1: -50.0})
+        repair.Update()
+        self.assertIn("became label 2, all that it had, at (", repair.GetReport())
+
+    def test_at_the_border(self):
+        for length, is_cut in ((4.0, False), (5.0, True)):
+            repair = filter_of(voxplex.Image(box()).to_vtk(), Shell={1: length})
+            repair.Update()
+            self.assertEqual("became label 2, cut at the border of the image, at (" in repair.GetReport(), is_cut)
 
     def test_numbers_and_names(self):
         """Above all labels and names; what has no name gets none, and no colour."""
@@ -256,7 +323,7 @@ class Shells(Repair):
         found = array_of(repair.GetOutput(), labels)
         self.assertEqual(set(numpy.unique(found)), {0, 1, 3, 10, 11})
         self.assertIn("shell: label 1 (Bone): ", repair.GetReport())
-        self.assertIn("became label 10, at (4-9, 4-15, 4-15)", repair.GetReport())
+        self.assertIn("became label 10, at (4-10, 4-15, 4-15)", repair.GetReport())
 
     def test_all_of_it(self):
         """A thickness beyond the image."""
@@ -309,6 +376,11 @@ class Check(Repair):
         lines = [line for line in repair.GetReport().splitlines() if line.startswith("border")]
         self.assertEqual(lines[19:], ["border: label 20: 1 voxel, at (19, 0, 0)", "border: 5 more labels"])
         self.assertEqual([row["what"] for row in json.loads(repair.ToJSON())].count("border"), 25)
+
+    def test_frame_without_labels(self):
+        repair = filter_of(voxplex.Image(numpy.zeros((5, 5, 5), numpy.uint8)).to_vtk(), CheckImage=True)
+        repair.Update()
+        self.assertIn("no foreground", repair.GetErrorMessage())
 
     def test_edges(self):
         """Voxels that share an edge only; beside a third one they are no contact."""
