@@ -188,8 +188,8 @@ void MaskUnion::WarnOfOverlaps(
     text += (i > 0 ? ", " : "") + Excerpt(this->NameOf(both.first)) + " and " +
       Excerpt(this->NameOf(both.second)) + " (" + std::to_string(count) + ")";
   }
-  warnings.push_back(text +
-    (pairs.size() > most ? ", " + std::to_string(pairs.size() - most) + " more" : ""));
+  warnings.push_back(
+    text + (pairs.size() > most ? ", " + std::to_string(pairs.size() - most) + " more" : ""));
 }
 
 void MaskUnion::WarnOf(const std::string& what, const std::vector<std::uint32_t>& numbers,

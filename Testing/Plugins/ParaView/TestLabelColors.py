@@ -26,7 +26,7 @@ def write_cells(labels):
         file.write(b"ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
                    b"DimSize = %d 2 2\nElementType = MET_USHORT\nElementDataFile = LOCAL\n" % labels)
         file.write(4 * struct.pack("<%dH" % labels, *range(1, labels + 1)))
-    with open(path[:-4] + ".txt", "w") as file:
+    with open(path + ".txt", "w") as file:
         file.writelines("%d Cell %d\n" % (label, label) for label in range(1, labels + 1))
     return path
 

@@ -238,7 +238,7 @@ void pqVoxplexWindowTest::testMenu()
   this->openMenu("menu.png");
   QMenu* const menu = this->findMenu();
   this->check(menu != nullptr, "Filters > Voxplex is in the menu bar");
-  this->check(menu && menu->actions().size() == 4, "it has four filters");
+  this->check(menu && menu->actions().size() == 6, "it has six filters");
   for (const QString label : { MeshLabel, SeriesLabel, SliceLabel, QualityLabel })
   {
     QAction* const action = this->findAction(label);
