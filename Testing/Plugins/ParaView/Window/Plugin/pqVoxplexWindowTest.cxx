@@ -239,7 +239,8 @@ void pqVoxplexWindowTest::testMenu()
   QMenu* const menu = this->findMenu();
   this->check(menu != nullptr, "Filters > Voxplex is in the menu bar");
   this->check(menu && menu->actions().size() == 6, "it has six filters");
-  for (const QString label : { MeshLabel, SeriesLabel, SliceLabel, QualityLabel })
+  for (const QString label : { MeshLabel, SeriesLabel, SliceLabel, QualityLabel,
+         "Masks To Segmentation", "Repair Segmentation" })
   {
     QAction* const action = this->findAction(label);
     this->check(action != nullptr, "'" + label + "' is in the menu");
