@@ -37,6 +37,7 @@ if (ITK_FOUND)
     ${voxplex_filters}/Private/VoxelBox.h)
   set(voxplex_repair_sources
     ${voxplex_filters}/Private/ITKOperations.cxx
+    ${voxplex_filters}/Private/SegmentationChecks.cxx
     ${voxplex_filters}/Private/SegmentationRepair.cxx
     ${voxplex_filters}/Private/ThinRidges.cxx)
 else ()

@@ -7,6 +7,7 @@
 #ifndef voxplex_Private_SegmentationRepair_h
 #define voxplex_Private_SegmentationRepair_h
 
+#include "Parallel/ParallelFor.h"
 #include "Private/VoxelBox.h"
 
 #include <functional>
@@ -121,6 +122,85 @@ private:
   unsigned Threads;
   RepairProgress Progress;
 };
+
+/** One row for each label. */
+struct SegmentationRepair::Rows
+{
+  std::string What;
+  std::map<std::int64_t, RepairRow> ByLabel;
+
+  void Add(std::int64_t label, std::int64_t voxels, const VoxelIndex& first, const VoxelIndex& last)
+  {
+    RepairRow& row = this->ByLabel[label];
+    if (voxels > row.Largest || (voxels == row.Largest && first < row.First))
+    {
+      row.First = first;
+      row.Last = last;
+      row.Largest = voxels;
+    }
+    row.What = this->What;
+    row.Label = label;
+    row.Voxels += voxels;
+    ++row.Places;
+  }
+
+  void AppendTo(std::vector<RepairRow>& rows) const
+  {
+    for (const auto& [label, row] : this->ByLabel)
+    {
+      rows.push_back(row);
+    }
+  }
+};
+
+/** Calls visit(position) for the voxels that share a face with one. */
+template <typename Visit>
+void SegmentationRepair::ForEachNeighbour(std::int64_t position, Visit&& visit) const
+{
+  const VoxelIndex voxel = this->IndexOf(position);
+  std::int64_t stride = 1;
+  for (std::size_t a = 0; a < 3; stride *= this->Grid.Dimensions[a++])
+  {
+    if (voxel[a] > 0)
+    {
+      visit(position - stride);
+    }
+    if (voxel[a] + 1 < this->Grid.Dimensions[a])
+    {
+      visit(position + stride);
+    }
+  }
+}
+
+/** The voxels with a label, in order, for which test(index, id) is true. */
+template <typename Test>
+SegmentationRepair::Positions SegmentationRepair::FindVoxels(Test&& test) const
+{
+  const VoxelIndex& n = this->Grid.Dimensions;
+  std::vector<Positions> found(Unsigned(n[2]));
+  ParallelFor(0, found.size(), 1, this->Threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      const VoxelBox slices{ { 0, 0, static_cast<std::int64_t>(first) },
+        { n[0] - 1, n[1] - 1, static_cast<std::int64_t>(last) - 1 } };
+      slices.ForEachVoxel(
+        [&](const VoxelIndex& voxel)
+        {
+          const std::int64_t position = this->PositionOf(voxel);
+          const LabelId id = this->Ids[Unsigned(position)];
+          if (id != 0 && test(voxel, id))
+          {
+            found[Unsigned(voxel[2])].push_back(position);
+          }
+        });
+    });
+  Positions all;
+  for (const Positions& slice : found)
+  {
+    all.insert(all.end(), slice.begin(), slice.end());
+  }
+  return all;
+}
 
 } // namespace voxplex
 

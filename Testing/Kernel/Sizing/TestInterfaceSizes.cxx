@@ -83,6 +83,14 @@ std::string ErrorOf(const std::vector<InterfaceSize>& sizes)
 } // namespace
 
 //------------------------------------------------------------------------------------------------
+TEST(InterfaceSizes, PairsOfAnyNumberOfLabelsAreApart)
+{
+  const InterfaceSizes<3> sizes(phantoms::Blocks(2, 42), { { 2, 1, 0.5 } }, { 1.0 }, 0.0, 2);
+  EXPECT_EQ(sizes.Between(Somewhere, 2, 1), 0.5);
+  EXPECT_EQ(sizes.Between(Somewhere, 65536 + 2, 1), 1.0);
+  EXPECT_EQ(sizes.Between(Somewhere, 65536 + 1, 2), 1.0);
+}
+
 TEST(InterfaceSizes, PairsCountBeforeLabels)
 {
   const LabelImage<3> image = phantoms::NestedBalls(12.0); // 3 within 7 within 200: ids 1, 2, 3
