@@ -7,7 +7,6 @@
 #ifndef voxplex_LocalSampling_h
 #define voxplex_LocalSampling_h
 
-#include "Conformity/HiddenLayers.h"
 #include "Domain/Domain.h"
 #include "Image/BitMask.h"
 #include "Image/Components.h"
@@ -79,12 +78,6 @@ public:
   /** On faces of components whose elements have gaps. */
   std::size_t SampleGaps(const std::vector<VoxelFace<D>>& faces);
 
-  /**
-   * Where dual edges enter and leave hidden layers.
-   * @param thinnest layers that are thinner on the dual edge are left out, in spacings of the mesh there
-   */
-  std::size_t SampleLayers(const std::vector<HiddenLayer<D>>& layers, double thinnest);
-
   /** On all faces of a component, and inside of it a bound. */
   std::size_t SampleComponent(
     const Components<D>& components, std::uint32_t component, double spacing);
@@ -128,10 +121,8 @@ private:
     std::map<Index, Place> Places = {};
   };
 
-  Index VoxelAt(const Point<D>& p) const;
   double AskedDistance(const VoxelFace<D>& face) const;
-  Place& PlaceAt(const Index& voxel, Schedule& schedule);
-  void Visit(Place& place, const Schedule& schedule, double first);
+  Place& PlaceAt(const VoxelFace<D>& face, Schedule& schedule);
   void Begin();
   template <typename DistanceOf>
   std::size_t SampleFaces(
@@ -147,7 +138,6 @@ private:
   const std::stop_token Stop;
   Schedule OfInterfaces;
   Schedule OfGaps;
-  Schedule OfLayers;
   double FinestOfComponent;
   std::vector<VoxelFace<D>> Faces;
   std::vector<FeatureSeed<D>> Seeds; ///< not taken yet
