@@ -68,6 +68,28 @@ ordered_json BrokenToJson(const std::vector<BrokenComponent>& components)
   return broken;
 }
 
+ordered_json UnitedToJson(const std::vector<UnitedComponents>& pieces)
+{
+  ordered_json united = ordered_json::array();
+  for (const UnitedComponents& piece : pieces)
+  {
+    united.push_back({ { "label", piece.Component.Label }, { "voxels", piece.Component.Voxels },
+      { "voxel", piece.Component.Voxel }, { "number", piece.Number } });
+  }
+  return united;
+}
+
+ordered_json ContactsToJson(const std::vector<FalseContact>& contacts)
+{
+  ordered_json json = ordered_json::array();
+  for (const FalseContact& contact : contacts)
+  {
+    json.push_back({ { "labels", contact.Labels }, { "facets", contact.Facets },
+      { "area", contact.Area }, { "voxel", contact.Voxel } });
+  }
+  return json;
+}
+
 ordered_json RelaxationToJson(const std::vector<RelaxationReport>& regions)
 {
   ordered_json json = ordered_json::array();
@@ -110,6 +132,8 @@ ordered_json InterfacesToJson(const InterfaceStatistics& figures)
     { "junction_points", figures.JunctionSeeds },
     { "rounds", figures.Rounds },
     { "points", figures.Seeds },
+    { "layer_rounds", figures.LayerRounds },
+    { "layer_points", figures.LayerSeeds },
     { "nonmanifold_edges_repaired", figures.NonManifoldRepaired },
     { "nonmanifold_edges_opened", figures.NonManifoldOpened },
     { "nonmanifold_edges_left", figures.NonManifoldLeft },
@@ -225,6 +249,8 @@ ordered_json FiguresToJson(const MeshingStatistics& v)
     { "components", v.Components.Found },
     { "lost_components", ComponentsToJson(v.Components.Lost) },
     { "broken_components", BrokenToJson(v.Components.Broken) },
+    { "united_components", UnitedToJson(v.Components.United) },
+    { "false_contacts", ContactsToJson(v.Components.Contacts) },
     { "dropped_components", ComponentsToJson(v.DroppedComponents) },
     { "frame_components", v.FrameComponents.Found },
     { "lost_frame_components", ComponentsToJson(v.FrameComponents.Lost) },

@@ -175,12 +175,40 @@ std::vector<std::string> WarningsOf(const MeshingStatistics& run,
   {
     const auto describe = [](const BrokenComponent& component)
     { return Describe(component.Component) + " in " + std::to_string(component.Fragments); };
-    warnings.push_back(
-      "Tetrahedra of these connected components of the image are in several pieces "
-      "that no common faces connect: " +
-      ListSome(std::span<const BrokenComponent>(run.Components.Broken), describe) +
+    warnings.push_back(std::string(run.Dimension == 4 ? "Pentatopes" : "Tetrahedra") +
+      " of these connected components of the image are in several pieces that no common " +
+      (run.Dimension == 4 ? "facets" : "faces") +
+      " connect: " + ListSome(std::span<const BrokenComponent>(run.Components.Broken), describe) +
       (exactComponents ? ". A smaller {delta}, or an image with smaller voxels, may connect them."
                        : ". {exact-components} or a smaller {delta} connects them."));
+  }
+  if (!run.Components.United.empty())
+  {
+    const auto describe = [](const UnitedComponents& piece)
+    { return Describe(piece.Component) + " with " + std::to_string(piece.Number - 1) + " more"; };
+    warnings.push_back("These connected components are one piece with others of their label that "
+                       "they do not touch in "
+                       "the image: " +
+      ListSome(std::span<const UnitedComponents>(run.Components.United), describe) +
+      (exactComponents ? ". A smaller {delta} may separate them."
+                       : ". {exact-components} or a smaller {delta} separates them."));
+  }
+  if (!run.Components.Contacts.empty())
+  {
+    const auto describe = [&](const FalseContact& contact)
+    {
+      const auto side = [&](std::int64_t label)
+      { return label == 0 ? std::string("background") : describeLabel(label); };
+      return side(contact.Labels[0]) + " and " + side(contact.Labels[1]) + " at " +
+        DescribeVoxel(contact.Voxel) + " (" + NumberText(contact.Area) + ")";
+    };
+    warnings.push_back(
+      "Interfaces of the mesh are between labels that do not touch there in the image "
+      "(with their " +
+      std::string(run.Dimension == 4 ? "volume" : "area") +
+      "): " + ListSome(std::span<const FalseContact>(run.Components.Contacts), describe) +
+      (exactComponents ? ". A smaller {delta} may separate them."
+                       : ". {exact-components} or a smaller {delta} separates them."));
   }
   warnOfLost(run.FrameComponents, "frames of the image");
   if (!run.RelaxedRegions.empty())

@@ -14,6 +14,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <map>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -53,12 +55,14 @@ public:
     , JunctionCosine(std::cos(options.Shape.JunctionFacetAngle * std::numbers::pi / 180.0))
     , Surfaces(options.Surfaces)
     , Sizing(options.Sizing)
+    , Contacts(options.Contacts)
     , Keeps(options.Keeps)
   {
   }
 
   /**
-   * Whether a change keeps the bounds of shapes and sizes, and leaves some of the label beside it.
+   * Whether a change keeps the bounds of shapes and sizes, leaves some of the label beside it, and does
+   * not part from the topology of the image.
    */
   bool IsAllowed(const Change& change) const
   {
@@ -97,7 +101,7 @@ public:
         }
       }
     }
-    return leavesSome && !this->UncoversSharpFacet(change);
+    return leavesSome && !this->UncoversSharpFacet(change) && this->KeepsTopology(change);
   }
 
   /**
@@ -171,6 +175,119 @@ private:
       }
     }
     return false;
+  }
+
+  /**
+   * Whether a facet separates labels that do not touch near it in the image.
+   * @param label of the simplex t; `beside` is that of the one beside facet i
+   */
+  bool IsFalseContact(SimplexId t, unsigned i, LabelId label, LabelId beside) const
+  {
+    std::array<const Point<D>*, D> corners;
+    const Facet<D> facet = this->FacetOf(t, i);
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      corners[k] = &this->Near.Position(facet[k]);
+    }
+    return label != beside && !this->Contacts->TouchNear(corners, label, beside);
+  }
+
+  /**
+   * Whether a change neither makes a contact that the image does not have, nor cuts what it connects,
+   * nor joins what it does not connect (the last two in 3D). Only the stars of the changed simplices are looked at.
+   */
+  bool KeepsTopology(const Change& change) const
+  {
+    if (!this->Contacts)
+    {
+      return true;
+    }
+    // The simplices beside the change that have its label, or one that it takes away.
+    std::map<LabelId, std::vector<SimplexId>> beside;
+    for (const SimplexId t : change.Cells)
+    {
+      const LabelId own = this->Labels[t];
+      for (unsigned i = 0; i <= D; ++i)
+      {
+        const SimplexId n = this->Near.Beside(t, i);
+        if (change.Touches(n))
+        {
+          continue;
+        }
+        const LabelId other = this->Near.LabelBeside(t, i);
+        if (this->IsFalseContact(t, i, change.Label, other) &&
+          !this->IsFalseContact(t, i, own, other))
+        {
+          return false;
+        }
+        if (n != None && (other == change.Label || other == own))
+        {
+          beside[other].push_back(n);
+        }
+      }
+    }
+    // In 4D this would leave more triangles to be opened, whose pieces have worse shapes.
+    return D == 4 ||
+      std::all_of(beside.begin(), beside.end(),
+        [&](const auto& some) { return this->AgreesWithImage(change, some.second); });
+  }
+
+  /**
+   * Whether the image connects some simplices of one label beside a change, if the change connects
+   * them, and otherwise does not connect those that the change separates.
+   */
+  bool AgreesWithImage(const Change& change, const std::vector<SimplexId>& some) const
+  {
+    if (some.size() < 2)
+    {
+      return true;
+    }
+    const LabelId label = this->Labels[some.front()];
+    std::vector<SimplexId> around;
+    for (const SimplexId t : change.Cells)
+    {
+      for (const VertexId v : this->Near.VerticesOf(t))
+      {
+        const std::vector<SimplexId>& star = this->Near.StarOf(v);
+        std::copy_if(star.begin(), star.end(), std::back_inserter(around),
+          [&](SimplexId s) { return this->Labels[s] == label && !change.Touches(s); });
+      }
+    }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    std::vector<SimplexId> reached{ some.front() };
+    for (std::size_t k = 0; k < reached.size(); ++k)
+    {
+      for (unsigned i = 0; i <= D; ++i)
+      {
+        const SimplexId next = this->Near.Beside(reached[k], i);
+        if (std::binary_search(around.begin(), around.end(), next) &&
+          std::find(reached.begin(), reached.end(), next) == reached.end())
+        {
+          reached.push_back(next);
+        }
+      }
+    }
+    return std::all_of(some.begin(), some.end(),
+      [&](SimplexId s)
+      {
+        return std::find(reached.begin(), reached.end(), s) != reached.end() ||
+          this->Contacts->AreConnected(
+            this->CentroidOf(some.front()), this->CentroidOf(s), label) == (label == change.Label);
+      });
+  }
+
+  Point<D> CentroidOf(SimplexId t) const
+  {
+    Point<D> centroid{};
+    for (const VertexId v : this->Near.VerticesOf(t))
+    {
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        centroid[a] += this->Near.Position(v)[a] / (D + 1);
+      }
+    }
+    return centroid;
   }
 
   /** Whether a tetrahedron is larger than the elements of a label may be. */
@@ -256,6 +373,7 @@ private:
   const double JunctionCosine; ///< at least FacetCosine
   const Domain<D>* const Surfaces;
   const SizingField<D>* const Sizing;
+  const LabelContacts<D>* const Contacts; ///< null: topology is not looked at
   const std::function<bool(SimplexId)> Keeps;
 };
 

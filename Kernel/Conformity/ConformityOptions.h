@@ -25,11 +25,10 @@ struct ComponentOptions
   std::int64_t Smallest = 8;
   /**
    * If true, the components that are checked are sampled as finely as their thickness requires from
-   * the start, however large delta is. In 3D also as it takes to connect their elements through faces
-   * (FragmentCheck), unless InterfaceOptions::Rounds is 0. If false, a component that is thin compared
-   * with delta is only as exact as delta allows, but has at least one element. Components that are in
-   * several fragments in the end are in ComponentStatistics::Broken; if false, those are whose largest
-   * fragment has less than 90 % of the volume.
+   * the start, however large delta is; and so are layers that the mesh hides (HiddenLayers), and gaps
+   * in components (JoinPieces), unless InterfaceOptions::Rounds is 0. If false, a component that is thin
+   * compared with delta is only as exact as delta allows, but has at least one element, and layers and
+   * gaps are sampled where it takes few elements.
    */
   bool Exact = false;
 };

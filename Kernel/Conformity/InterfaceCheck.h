@@ -74,8 +74,12 @@ public:
   /** Requests finer sampling near far faces, unless this inspection has looked at all faces. */
   bool InspectAll(const ManifoldLabels<D>& made);
 
+  /** Requests finer sampling where layers of the image are hidden. @param exact ComponentOptions::Exact */
+  bool InspectLayers(const ManifoldLabels<D>& made, bool exact);
+
 private:
   bool MayGoOn() const { return this->Statistics.Rounds < this->Rounds; }
+  bool AreFew(std::size_t defects) const;
   bool Sample(const std::vector<VoxelFace<D>>& far, const ManifoldLabels<D>& made);
 
   const Triangulation<D>& Mesh;

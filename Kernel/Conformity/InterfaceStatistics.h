@@ -20,6 +20,8 @@ struct InterfaceStatistics
   std::uint64_t JunctionSeeds = 0;  ///< feature points on them, at most
   unsigned Rounds = 0;              ///< times refinement was resumed to correct interfaces
   std::uint64_t Seeds = 0;          ///< feature points inserted in these rounds, at most
+  unsigned LayerRounds = 0;         ///< times refinement was resumed to show hidden layers
+  std::uint64_t LayerSeeds = 0;     ///< feature points inserted in these rounds, at most
   /** Edges where the boundary of a label was not manifold and is; of all inspections together. */
   std::uint64_t NonManifoldRepaired = 0;
   /** Repaired edges around which tetrahedra were cut in pieces. */

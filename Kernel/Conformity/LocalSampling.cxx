@@ -41,6 +41,12 @@ constexpr double FirstSpacing = 0.8;
 constexpr double NextSpacingAtGap = 0.6;
 
 /**
+ * The spacing at the first visit of a hidden layer, in lengths of the dual edge inside of it. The points
+ * on both sides are to be each other's neighbours.
+ */
+constexpr double SpacingOfLayer = 0.9;
+
+/**
  * The sampling distance of R1 is this factor times the spacing of points, because the points already
  * give the shape of interfaces. With 1, islands of the knee atlas get twice as many additional
  * elements; if single voxels are kept, too, the run takes three times as long. With 3, refinement is
@@ -140,6 +146,7 @@ LocalSampling<D>::LocalSampling(const LabelImage<D>& image, const LabelImage<D>&
   , OfInterfaces{ FirstSpacing, 0.5, FinestSpacing<D>(image.Grid(), FinestOfInterfaces), 2, 1.0 }
   , OfGaps{ NextSpacingAtGap, NextSpacingAtGap,
     FinestSpacing<D>(image.Grid(), FinestInsideComponents), 1, BoundFactor }
+  , OfLayers{ 0.0, NextSpacingAtGap, FinestSpacing<D>(image.Grid(), FinestOfInterfaces), 0, 0.0 }
   , FinestOfComponent(OfGaps.Finest)
 {
   for (std::size_t label = 1; label < image.Values().size(); ++label)
@@ -209,6 +216,48 @@ std::size_t LocalSampling<D>::SampleGaps(const std::vector<VoxelFace<D>>& faces)
   return points;
 }
 
+template <int D>
+std::size_t LocalSampling<D>::SampleLayers(
+  const std::vector<HiddenLayer<D>>& layers, double thinnest)
+{
+  this->Begin();
+  const std::size_t before = this->Seeds.size();
+  for (const HiddenLayer<D>& layer : layers)
+  {
+    const double thickness = Distance(layer.Ends[0], layer.Ends[1]);
+    for (const Point<D>& end : layer.Ends)
+    {
+      if (thickness > 0.0 && thickness >= thinnest * this->Sizing.Spacing(end))
+      {
+        const Index voxel = this->VoxelAt(end);
+        Place& place = this->PlaceAt(voxel, this->OfLayers);
+        this->Visit(
+          place, this->OfLayers, std::min(SpacingOfLayer * thickness, this->Sizing.Spacing(end)));
+        if (place.Spacing > 0.0)
+        {
+          this->Seeds.push_back({ end, place.Spacing });
+          this->Local.SetSpacing(voxel, 1, place.Spacing);
+        }
+      }
+    }
+  }
+  return this->Seeds.size() - before;
+}
+
+/** The voxel of the crop that a point is in, or nearest to. */
+template <int D>
+auto LocalSampling<D>::VoxelAt(const Point<D>& p) const -> Index
+{
+  const Point<D> index = this->Image.Grid().ToIndex(p);
+  Index voxel;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    voxel[a] = std::clamp<std::int64_t>(
+      std::llround(index[a]) - this->Image.CropOrigin()[a], 0, this->Image.CropDimensions()[a] - 1);
+  }
+  return voxel;
+}
+
 /** The requested sampling distance. If it is graded, at most the finest one. */
 template <int D>
 double LocalSampling<D>::AskedDistance(const VoxelFace<D>& face) const
@@ -219,16 +268,30 @@ double LocalSampling<D>::AskedDistance(const VoxelFace<D>& face) const
   return base.Graded ? std::min(distance, base.Asked) : distance;
 }
 
-/** The place that a face is sampled with. */
+/** The place that a voxel is sampled with. */
 template <int D>
-auto LocalSampling<D>::PlaceAt(const VoxelFace<D>& face, Schedule& schedule) -> Place&
+auto LocalSampling<D>::PlaceAt(const Index& voxel, Schedule& schedule) -> Place&
 {
-  Index cell = face.Voxel;
+  Index cell = voxel;
   for (std::int64_t& c : cell)
   {
     c = (c + 1) / LocalDelta<D>::Cell;
   }
   return schedule.Places[cell];
+}
+
+/** Visits a place, once in a request. @param first the spacing if it was never visited */
+template <int D>
+void LocalSampling<D>::Visit(Place& place, const Schedule& schedule, double first)
+{
+  if (place.Request != this->Requests)
+  {
+    place.Request = this->Requests;
+    const double spacing = place.Visits == 0 ? first : schedule.Next * place.Spacing;
+    const bool isDone = place.Visits > 0 && place.Spacing <= schedule.Finest;
+    place.Spacing = isDone ? 0.0 : std::max(spacing, schedule.Finest);
+    ++place.Visits;
+  }
 }
 
 /** @param distanceOf distanceOf(face) is the distance that sampling begins with */
@@ -241,16 +304,8 @@ std::size_t LocalSampling<D>::SampleFaces(
   const std::size_t before = this->Seeds.size();
   for (const VoxelFace<D>& face : faces)
   {
-    Place& place = this->PlaceAt(face, schedule);
-    if (place.Request != this->Requests)
-    {
-      place.Request = this->Requests;
-      const double spacing =
-        place.Visits == 0 ? schedule.First * distanceOf(face) : schedule.Next * place.Spacing;
-      const bool isDone = place.Visits > 0 && place.Spacing <= schedule.Finest;
-      place.Spacing = isDone ? 0.0 : std::max(spacing, schedule.Finest);
-      ++place.Visits;
-    }
+    Place& place = this->PlaceAt(face.Voxel, schedule);
+    this->Visit(place, schedule, schedule.First * distanceOf(face));
     Point<D> z;
     if (place.Spacing > 0.0 &&
       this->Surfaces.FirstCrossing(this->OfDomain.CentreOf(face.Voxel),
@@ -272,7 +327,7 @@ void LocalSampling<D>::Bound(const std::vector<VoxelFace<D>>& faces, Schedule& s
 {
   for (const VoxelFace<D>& face : faces)
   {
-    const Place& place = this->PlaceAt(face, schedule);
+    const Place& place = this->PlaceAt(face.Voxel, schedule);
     if (place.Spacing > 0.0 && place.Visits >= schedule.FirstBound)
     {
       const double factor = place.Spacing <= schedule.Finest ? schedule.BoundAtFinest : BoundFactor;

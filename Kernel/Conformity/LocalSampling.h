@@ -7,6 +7,7 @@
 #ifndef voxplex_LocalSampling_h
 #define voxplex_LocalSampling_h
 
+#include "Conformity/HiddenLayers.h"
 #include "Domain/Domain.h"
 #include "Image/BitMask.h"
 #include "Image/Components.h"
@@ -78,6 +79,12 @@ public:
   /** On faces of components whose elements have gaps. */
   std::size_t SampleGaps(const std::vector<VoxelFace<D>>& faces);
 
+  /**
+   * Where dual edges enter and leave hidden layers.
+   * @param thinnest layers that are thinner on the dual edge are left out, in spacings of the mesh there
+   */
+  std::size_t SampleLayers(const std::vector<HiddenLayer<D>>& layers, double thinnest);
+
   /** On all faces of a component, and inside of it a bound. */
   std::size_t SampleComponent(
     const Components<D>& components, std::uint32_t component, double spacing);
@@ -121,8 +128,10 @@ private:
     std::map<Index, Place> Places = {};
   };
 
+  Index VoxelAt(const Point<D>& p) const;
   double AskedDistance(const VoxelFace<D>& face) const;
-  Place& PlaceAt(const VoxelFace<D>& face, Schedule& schedule);
+  Place& PlaceAt(const Index& voxel, Schedule& schedule);
+  void Visit(Place& place, const Schedule& schedule, double first);
   void Begin();
   template <typename DistanceOf>
   std::size_t SampleFaces(
@@ -138,6 +147,7 @@ private:
   const std::stop_token Stop;
   Schedule OfInterfaces;
   Schedule OfGaps;
+  Schedule OfLayers;
   double FinestOfComponent;
   std::vector<VoxelFace<D>> Faces;
   std::vector<FeatureSeed<D>> Seeds; ///< not taken yet

@@ -8,6 +8,7 @@
 #include "Conformity/RepairNeighbourhood.h"
 #include "Parallel/ParallelCollect.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -58,7 +59,7 @@ SimplexLabels ManifoldLabeller<D>::MakePlain() const
 }
 
 template <int D>
-ManifoldLabels<D> ManifoldLabeller<D>::Make(InterfaceStatistics& statistics)
+ManifoldLabels<D> ManifoldLabeller<D>::Make(bool joins, InterfaceStatistics& statistics)
 {
   // If there are more new simplices, it takes less time to look at all of them.
   constexpr std::size_t Share = 32;
@@ -74,6 +75,22 @@ ManifoldLabels<D> ManifoldLabeller<D>::Make(InterfaceStatistics& statistics)
       this->Source, made.Labels, small, this->Options, this->Threads, this->Stop);
     changed.insert(changed.end(), relabelled.begin(), relabelled.end());
   }
+  if (this->Options.Contacts)
+  {
+    std::sort(changed.begin(), changed.end());
+    const bool areMost = 2 * changed.size() > made.Labels.size();
+    made.Layers = FindHiddenLayers<D>(this->Source, made.Labels, areMost ? nullptr : &changed,
+      this->Options, this->Threads, this->Stop);
+    const std::vector<SimplexId> shown = ShowHiddenLayers<D>(
+      this->Source, made.Labels, made.Layers, this->Options, this->Threads, this->Stop);
+    changed.insert(changed.end(), shown.begin(), shown.end());
+  }
+  if (joins && this->Options.Kept)
+  {
+    JoinedPieces<D> joined = JoinPieces<D>(this->Source, made.Labels, this->Options, this->Stop);
+    changed.insert(changed.end(), joined.Relabelled.begin(), joined.Relabelled.end());
+    made.Gaps = std::move(joined.Gaps);
+  }
   const std::vector<InterfaceRidge<D>> ridges = areFew
     ? FindNonManifoldRidgesOf<D>(this->Source, made.Labels, changed, this->Threads, this->Stop)
     : FindNonManifoldRidges<D>(this->Source, made.Labels, this->Threads, this->Stop);
@@ -86,7 +103,13 @@ ManifoldLabels<D> ManifoldLabeller<D>::Make(InterfaceStatistics& statistics)
   {
     made.Places.push_back({ CentroidOf(this->Source, ridge.Vertices), ridge.IsJunction });
   }
-  changed = this->KeepLabels(made.Labels, made.NonManifold);
+  std::erase_if(made.Layers,
+    [&](const HiddenLayer<D>& layer)
+    {
+      const HiddenLayerFinder<D> finder(this->Source, made.Labels, this->Options);
+      return !finder.Find(layer.Cell, layer.Facet);
+    });
+  changed = this->KeepLabels(made);
   if (changed.size() <= this->Source.SimplexIdEnd() / Share)
   {
     MarkInterfaceVerticesOf<D>(this->Source, made.Labels, changed, this->Threads, this->Stop);
@@ -133,9 +156,9 @@ auto ManifoldLabeller<D>::TakeLabels(SimplexLabels& labels) const -> Simplices
 
 /** Returns the simplices that are new, were examined again or have another label than before. */
 template <int D>
-auto ManifoldLabeller<D>::KeepLabels(
-  const SimplexLabels& labels, const std::vector<InterfaceRidge<D>>& left) -> Simplices
+auto ManifoldLabeller<D>::KeepLabels(const ManifoldLabels<D>& made) -> Simplices
 {
+  const SimplexLabels& labels = made.Labels;
   Simplices changed = ParallelCollect<SimplexId>(
     labels.size(), Grain, this->Threads,
     [&](std::size_t first, std::size_t last, Simplices& some)
@@ -153,7 +176,11 @@ auto ManifoldLabeller<D>::KeepLabels(
     },
     this->Stop);
   const repair::Neighbourhood<D> near(this->Source, labels, labels);
-  for (const InterfaceRidge<D>& ridge : left)
+  for (const HiddenLayer<D>& layer : made.Layers)
+  {
+    this->Source.State(layer.Cell).Examined = false;
+  }
+  for (const InterfaceRidge<D>& ridge : made.NonManifold)
   {
     for (const SimplexId s : near.StarOf(ridge.Vertices))
     {

@@ -8,9 +8,11 @@
 #ifndef voxplex_ManifoldLabels_h
 #define voxplex_ManifoldLabels_h
 
+#include "Conformity/HiddenLayers.h"
 #include "Conformity/InterfaceStatistics.h"
 #include "Conformity/LocalSampling.h"
 #include "Conformity/ManifoldRepair.h"
+#include "Conformity/PieceJoints.h"
 #include "Mesh/SimplexLabels.h"
 
 #include <stop_token>
@@ -26,6 +28,8 @@ struct ManifoldLabels
   SimplexLabels Labels;                       ///< of each simplex id
   std::vector<InterfaceRidge<D>> NonManifold; ///< ridges that are not manifold with these labels
   std::vector<NonManifoldPlace<D>> Places;    ///< of these ridges
+  std::vector<HiddenLayer<D>> Layers;         ///< hidden with these labels
+  std::vector<PieceGap<D>> Gaps;              ///< see JoinPieces()
 };
 
 /**
@@ -55,11 +59,12 @@ public:
   /**
    * No thread may change the triangulation during the call. Takes time linear in the number of
    * simplices, if few are repaired.
+   * @param joins whether to join pieces of components, too; otherwise Gaps stay empty
    * @param statistics counts the ridges that were repaired, and receives the number of those left
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc. Then the next call
    *   looks at the same simplices again.
    */
-  ManifoldLabels<D> Make(InterfaceStatistics& statistics);
+  ManifoldLabels<D> Make(bool joins, InterfaceStatistics& statistics);
 
   /** The labels at the circumcentres: no loose fragment and no ridge is looked for. */
   SimplexLabels MakePlain() const;
@@ -68,7 +73,7 @@ private:
   using Simplices = std::vector<SimplexId>;
 
   Simplices TakeLabels(SimplexLabels& labels) const;
-  Simplices KeepLabels(const SimplexLabels& labels, const std::vector<InterfaceRidge<D>>& left);
+  Simplices KeepLabels(const ManifoldLabels<D>& made);
 
   Triangulation<D>& Source;
   const ManifoldRepairOptions<D> Options;

@@ -11,15 +11,28 @@
 #include "Delaunay/Triangulation.h"
 #include "Domain/Domain.h"
 #include "Geometry/ShapeBounds.h"
+#include "Image/Components.h"
+#include "Image/LabelContacts.h"
 #include "Sizing/SizingField.h"
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
 
 namespace voxplex
 {
+
+/** The connected components whose elements are to hold together. */
+template <int D>
+struct KeptComponents
+{
+  const Components<D>& All;
+  const LabelImage<D>& Image;
+  std::vector<bool> Wanted; ///< by component
+  double SmallestGap = 0.0; ///< pieces with a smaller volume are not told as gaps
+};
 
 /** Constraints on changes of an interface. */
 template <int D>
@@ -30,6 +43,10 @@ struct ManifoldRepairOptions
   const Domain<D>* Surfaces = nullptr;
   /** Bounds the circumradius of simplices that get another label. Null: no bound. */
   const SizingField<D>* Sizing = nullptr;
+  /** Changes must not make contacts, cuts and unions that the image does not have. Null: they may. */
+  const LabelContacts<D>* Contacts = nullptr;
+  /** Pieces of these are joined (JoinPieces). Empty: of none. */
+  std::optional<KeptComponents<D>> Kept = {};
   /** Whether a simplex must keep its label. Empty: none must. */
   std::function<bool(SimplexId)> Keeps = {};
 };

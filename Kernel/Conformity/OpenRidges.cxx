@@ -265,13 +265,16 @@ private:
   struct Candidate
   {
     Filling How;
+    bool MakesContact = true;
     bool DentsBorder = true;
     double Score = SmallestScore<D>;
 
     bool IsBetterThan(const Candidate& other) const
     {
       return this->Score > SmallestScore<D> &&
-        (this->DentsBorder != other.DentsBorder ? other.DentsBorder : this->Score > other.Score);
+        (this->MakesContact != other.MakesContact    ? other.MakesContact
+            : this->DentsBorder != other.DentsBorder ? other.DentsBorder
+                                                     : this->Score > other.Score);
     }
   };
 
@@ -315,6 +318,7 @@ private:
       {
         continue;
       }
+      next.MakesContact = this->MakesContact(ring, next.How);
       next.DentsBorder = this->DentsBorder(ring, next.How);
       for (const double width : Widths)
       {
@@ -355,6 +359,39 @@ private:
       labels.push_back(filling.Gives[k] != 0 ? filling.Label : ring.Sectors[k].Label);
     }
     return HasOneRunOfEach(labels);
+  }
+
+  /** Whether the filling gets beside a label that its own does not touch there in the image. */
+  bool MakesContact(const Ring<D>& ring, const Filling& filling) const
+  {
+    for (std::size_t k = 0; this->Context.Contacts && k < ring.Sectors.size(); ++k)
+    {
+      if (filling.Gives[k] == 0)
+      {
+        continue;
+      }
+      const Sector<D>& sector = ring.Sectors[k];
+      std::array<const Point<D>*, D> corners;
+      for (unsigned i = 0; i < InRidge; ++i)
+      {
+        corners[i] = &this->Position(ring.Ridge[i]);
+      }
+      const auto touches = [&](VertexId beside, LabelId label)
+      {
+        corners[InRidge] = &this->Position(beside);
+        return label == filling.Label ||
+          this->Context.Contacts->TouchNear(corners, filling.Label, label);
+      };
+      const std::size_t next = ring.Next(k);
+      const std::size_t before = ring.Previous(k);
+      if (!touches(sector.R, sector.Label) ||
+        (filling.Gives[before] == 0 && !touches(sector.R, ring.Sectors[before].Label)) ||
+        (filling.Gives[next] == 0 && !touches(sector.S, ring.Sectors[next].Label)))
+      {
+        return true;
+      }
+    }
+    return false;
   }
 
   /**

@@ -8,7 +8,6 @@
 #define voxplex_Inspection_h
 
 #include "Conformity/ComponentCheck.h"
-#include "Conformity/FragmentCheck.h"
 #include "Conformity/InterfaceCheck.h"
 #include "Conformity/LocalSampling.h"
 #include "Conformity/ManifoldLabels.h"
@@ -41,11 +40,11 @@ std::function<bool(SimplexId)> KeepsItsLabel(
  *    sampled; the first time, of all. If there are any, inspection ends here;
  * 2. components, in 4D also those of frames, that have no simplex (ComponentCheck);
  * 3. edges that are not manifold (InterfaceCheck; 3D);
- * 4. components whose simplices do not hold together (FragmentCheck; 3D);
- * 5. if nothing was found, far faces among all.
- * If nothing was found again, and components in fragments are to be listed only, they are.
+ * 4. layers of the image that the mesh hides (HiddenLayers);
+ * 5. components whose simplices do not hold together (JoinPieces);
+ * 6. if nothing was found, far faces among all.
  *
- * Refinement goes on for what steps 2 to 4 find together. One that needed nothing the last time is
+ * Refinement goes on for what steps 2 to 5 find together. One that needed nothing the last time is
  * left out if another needs something already. Each gives up after a limited number of rounds, so the
  * run ends.
  *
@@ -72,17 +71,19 @@ public:
   const ManifoldLabels<D>& Labels() const { return this->Made; }
 
 private:
-  /** The finders of steps 2 to 4. */
+  /** The finders of steps 2 to 5. */
   enum Finder : std::size_t
   {
     LostComponents,
     LostInFrames,
     BadRidges,
-    LooseFragments,
+    HiddenLayers,
     NumberOfFinders
   };
 
-  void MakeLabels();
+  void MakeLabels(bool joins);
+  bool FindDefects();
+  bool InspectGaps();
   template <typename Find>
   void Look(bool& isNeeded, Finder finder, double& seconds, const Find& find);
 
@@ -90,11 +91,12 @@ private:
   Triangulation<D>& Source;
   LocalSampling<D> Sampling;
   InterfaceCheck<D> Interfaces;
+  const LabelContacts<D> Contacts;
   ManifoldLabeller<D> Labeller;
   std::optional<ComponentCheck<D>> Components; ///< empty if components are not checked
   std::optional<ComponentCheck<D>> OfFrames;   ///< likewise, and in 3D
-  std::optional<FragmentCheck> Fragments;      ///< likewise, and in 4D
   ManifoldLabels<D> Made;
+  unsigned GapRounds;                                ///< that are left
   std::array<bool, NumberOfFinders> NeededNothing{}; ///< at its last inspection
 };
 

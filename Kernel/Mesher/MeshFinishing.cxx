@@ -3,6 +3,7 @@
 #include "Mesher/MeshFinishing.h"
 
 #include "Base/Stopwatch.h"
+#include "Conformity/MeshTopology.h"
 #include "Conformity/OpenRidges.h"
 #include "Mesh/MeshExtraction.h"
 #include "Mesh/Subdivision.h"
@@ -62,7 +63,7 @@ ComponentGuard<D> MakeGuard(const RunEnvironment<D>& run)
 }
 
 template <int D>
-void ListLostComponents(const RunEnvironment<D>& run, const SimplexMesh<D>& mesh)
+void CompareWithImage(const RunEnvironment<D>& run, const SimplexMesh<D>& mesh)
 {
   const Stopwatch time;
   const LabelImage<D>& image = run.Prepared.Image;
@@ -76,7 +77,13 @@ void ListLostComponents(const RunEnvironment<D>& run, const SimplexMesh<D>& mesh
       {
         statistics.Lost.push_back(MakeReport(components.All()[c], image));
       }
+      if (&statistics == &run.Statistics.Components)
+      {
+        ComparePieces(mesh, components, image, wanted, statistics, run.Stop);
+      }
     });
+  run.Statistics.Components.Contacts =
+    FindFalseContacts(mesh, run.Prepared.OfDomain(), run.Options.Team.Threads, run.Stop);
   run.Statistics.Times.Components += time.Seconds();
 }
 
@@ -216,6 +223,8 @@ void Extract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
     positions = Fit(run, stage, labels, context.Sizing).Positions;
   }
   context.Positions = positions;
+  const LabelContacts<D> contacts(run.Prepared.OfDomain());
+  context.Contacts = &contacts;
   context.Keeps = KeepsItsLabel(run, source);
   OpenedRidges<D> opened =
     OpenRidges<D>(source, surfaces, labels.Labels, labels.NonManifold, run.Stop, context);
@@ -253,7 +262,7 @@ void FinishMesh(const RunEnvironment<D>& run, ExtractedMesh<D>& mesh)
   {
     FindSlabs(run.Prepared.Planes, mesh.Mesh);
   }
-  ListLostComponents(run, mesh.Mesh);
+  CompareWithImage(run, mesh.Mesh);
 }
 
 template void Extract<3>(

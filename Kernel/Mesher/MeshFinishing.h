@@ -40,7 +40,7 @@ void Extract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
   const ManifoldLabels<D>& labels, ExtractedMesh<D>& mesh);
 
 /**
- * Improves shapes if the options request it, and lists the components that the mesh has lost.
+ * Improves shapes if the options request it, and lists where the mesh differs from the components and contacts of the image.
  * Optimisation loses none that it has. The triangulation is not needed any more.
  *
  * @param run its statistics have the sampling distance of the mesh

@@ -7,7 +7,7 @@
 #include "Image/Components.h"
 #include "Mesh/FindInterfaces.h"
 #include "Parallel/ParallelFor.h"
-#include "Quality/Fragments.h"
+#include "Quality/ComponentPieces.h"
 #include "Quality/LostComponents.h"
 
 #include <cmath>

@@ -3,7 +3,6 @@
 // Loose fragments get the label beside them, and thin components hold together if they are to be exact.
 #include "Base/DisjointSets.h"
 #include "Base/Error.h"
-#include "Conformity/ElementFragments.h"
 #include "Conformity/LooseFragments.h"
 #include "Conformity/NonManifoldRidges.h"
 #include "Conformity/OpenRidges.h"
@@ -15,7 +14,7 @@
 #include "Mesh/Subdivision.h"
 #include "Mesher/ImageMesher.h"
 #include "Phantoms.h"
-#include "Quality/Fragments.h"
+#include "Quality/ComponentPieces.h"
 #include "RefinementChecks.h"
 
 #include <gtest/gtest.h>
@@ -383,17 +382,17 @@ TEST(CountFragments, OfEachLabel)
 }
 
 //------------------------------------------------------------------------------------------------
-TEST(FragmentCheck, ThinPartsHoldTogetherIfTheyAreToBeExact)
+TEST(Pieces, ThinPartsHoldTogether)
 {
   const LabelImage<3> image = BlockWithRods();
   ASSERT_EQ(Components<3>(image).All().size(), 1u);
-  EXPECT_GT(FragmentsOfBlockWithRods(false), 1u); // or the image is too easy
+  EXPECT_EQ(FragmentsOfBlockWithRods(false), 1u);
   EXPECT_EQ(FragmentsOfBlockWithRods(true), 1u);
 }
 
 //------------------------------------------------------------------------------------------------
 // What is one voxel thick, with sampling distances below and above.
-TEST(FragmentCheck, VesselsOfAVoxelHoldTogetherIfTheyAreToBeExact)
+TEST(Pieces, VesselsOfAVoxelHoldTogetherIfTheyAreToBeExact)
 {
   const std::pair<const char*, Voxels> vessels[] = { { "x", Row(0) }, { "y", Row(1) },
     { "z", Row(2) }, { "in a plane", Stairs({ 0, 1 }) }, { "in space", Stairs({ 0, 1, 2 }) },
@@ -422,36 +421,8 @@ TEST(FragmentCheck, VesselsOfAVoxelHoldTogetherIfTheyAreToBeExact)
   }
 }
 
-// Without exactness, and where refinement is not resumed.
-TEST(FragmentCheck, BrokenComponentsAreListed)
-{
-  const Voxels voxels = Row(2);
-  const LabelImage<3> image = ImageOf(voxels, 0, { 1.0, 1.0, 1.0 });
-  for (const bool exact : { false, true })
-  {
-    for (const unsigned threads : { 1u, 2u })
-    {
-      MeshingOptions<3> options;
-      options.Sampling.Delta = 1.0;
-      options.Components.Exact = exact;
-      options.Interfaces.Rounds = exact ? 0 : options.Interfaces.Rounds;
-      options.Team.Threads = threads;
-      std::vector<BrokenComponent> broken;
-      const SimplexMesh<3> mesh = MeshListed(image, options, broken);
-      ASSERT_EQ(broken.size(), 1u);
-      EXPECT_EQ(broken[0].Component.Label, 1);
-      EXPECT_EQ(broken[0].Component.Voxels, 40);
-      EXPECT_EQ(broken[0].Component.Voxel, (std::vector<std::int64_t>{ 4, 4, 4 }));
-      EXPECT_EQ(broken[0].Fragments, CountFragments(mesh).at(1));
-      EXPECT_GT(broken[0].Fragments, 1u);
-      EXPECT_GT(broken[0].Largest, 0.0);
-      EXPECT_LT(broken[0].Largest, 1.0);
-    }
-  }
-}
-
 //------------------------------------------------------------------------------------------------
-TEST(ElementFragments, AreThoseOfTheExtractedMesh)
+TEST(ComponentPieces, AreThoseOfTheExtractedMesh)
 {
   for (unsigned seed = 1; seed <= 6; ++seed)
   {
@@ -459,20 +430,28 @@ TEST(ElementFragments, AreThoseOfTheExtractedMesh)
     SimplexMesh<3> mesh;
     ExtractMesh<3>(blobs.Mesh(), blobs.Surfaces, blobs.Labels, mesh, 1);
     const LabelledTriangulation<3> elements(blobs.Mesh(), blobs.Labels);
-    ElementFragments fragments(elements, {});
-    fragments.MeasureVolumes(std::vector<bool>(fragments.All().size(), true));
+    const ComponentPieces<3> pieces(
+      elements, FindPieces<3>(elements), Components<3>(blobs.Image), blobs.Image, {});
     std::map<std::int64_t, std::uint64_t> numbers;
-    double volume = 0.0;
-    for (const ElementFragments::Fragment& fragment : fragments.All())
+    for (const auto& piece : pieces.All())
     {
-      ++numbers[blobs.Surfaces.LabelValue(fragment.Label)];
-      volume += fragment.Volume;
+      ++numbers[blobs.Surfaces.LabelValue(piece.Label)];
     }
     EXPECT_EQ(numbers, CountFragments(mesh));
-    for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
+    const ComponentPieces<3> extracted(MeshElements<3>(mesh, blobs.Image), FindPieces<3>(mesh),
+      Components<3>(blobs.Image), blobs.Image, {});
+    std::map<std::uint32_t, double> volumes; // by component
+    for (const auto& piece : pieces.All())
     {
-      volume -= SignedVolume<3>(mesh.PointsOf(s).data());
+      volumes[piece.Component] += piece.Volume;
     }
-    EXPECT_NEAR(volume, 0.0, 1e-6);
+    for (const auto& piece : extracted.All())
+    {
+      volumes[piece.Component] -= piece.Volume;
+    }
+    for (const auto& [component, difference] : volumes)
+    {
+      EXPECT_NEAR(difference, 0.0, 1e-6);
+    }
   }
 }

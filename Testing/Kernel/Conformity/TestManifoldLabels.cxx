@@ -128,8 +128,8 @@ std::size_t CheckRounds(std::array<Triangulation<D>*, 2> meshes, const Domain<D>
     {
       ChangeAtRandom(*meshes[k], domain.Bounds(), places, number, random[k]);
     }
-    made = one.Make(figures[0]);
-    ExpectSame(three.Make(figures[1]), made);
+    made = one.Make(true, figures[0]);
+    ExpectSame(three.Make(true, figures[1]), made);
     EXPECT_EQ(figures[1].NonManifoldRepaired, figures[0].NonManifoldRepaired);
     EXPECT_EQ(figures[0].NonManifoldLeft, made.NonManifold.size());
 
@@ -151,7 +151,7 @@ std::size_t CheckRounds(std::array<Triangulation<D>*, 2> meshes, const Domain<D>
   if (made.NonManifold.empty())
   {
     meshes[0]->Renumber(2);
-    const ManifoldLabels<D> again = one.Make(figures[0]);
+    const ManifoldLabels<D> again = one.Make(true, figures[0]);
     EXPECT_EQ(CountLabels(again.Labels), CountLabels(made.Labels));
     EXPECT_EQ(figures[0].NonManifoldRepaired, repaired);
   }

@@ -50,7 +50,7 @@ LabelImage<3> Noise(unsigned seed)
 SimplexMesh<3> Unoptimised(const LabelImage<3>& image, double delta)
 {
   MeshingOptions<3> options = checks::WithDelta<3>(delta);
-  options.Components.Smallest = 4;
+  options.Components.Smallest = 2;
   options.Optimisation.Run = false;
   return checks::MeshOf(image, options);
 }
@@ -92,7 +92,7 @@ TEST(ComponentGuard, OptimisationLosesNothing)
     const LabelImage<3> image = Noise(seed);
     const ImageDomain<3> domain(image, 1.0);
     const Components<3> components(image);
-    const std::vector<bool> wanted = components.FindWanted(4);
+    const std::vector<bool> wanted = components.FindWanted(2);
     const auto lostIn = [&](const SimplexMesh<3>& mesh)
     { return FindLostComponents(components, image, mesh, wanted, 2); };
     for (const double delta : { 2.0, 3.0 })

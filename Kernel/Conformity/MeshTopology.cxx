@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Conformity/MeshTopology.h"
+
+#include "Base/DisjointSets.h"
+#include "Base/GridIndex.h"
+#include "Mesh/MeshElements.h"
+#include "Parallel/ParallelCollect.h"
+#include "Quality/ComponentPieces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <set>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** A piece holds a component if it has half of it, or of this number of voxels of it. */
+constexpr double VoxelsThatHold = 64.0;
+
+/** The components with these numbers, ascending, in sets that touch each other in the image. */
+template <int D>
+DisjointSets JoinTouching(const std::vector<std::uint32_t>& some, const Components<D>& components)
+{
+  using Index = typename GridGeometry<D>::Index;
+  DisjointSets sets(some.size());
+  for (std::uint32_t k = 0; k < some.size(); ++k)
+  {
+    components.ForEachRun(some[k],
+      [&](Index low, std::int64_t length)
+      {
+        Index high = low;
+        high[0] += length - 1;
+        for (std::size_t a = 0; a < D; ++a)
+        {
+          --low[a];
+          ++high[a];
+        }
+        ForEachIndex(low, high,
+          [&](const Index& voxel)
+          {
+            const auto at = std::lower_bound(some.begin(), some.end(), components.At(voxel));
+            if (at != some.end() && *at == components.At(voxel))
+            {
+              sets.Join(k, static_cast<std::uint32_t>(at - some.begin()));
+            }
+          });
+      });
+  }
+  return sets;
+}
+
+/** The area of a facet; in 4D its volume. */
+template <int D>
+double MeasureOf(std::array<Point<D>, static_cast<std::size_t>(D)> p)
+{
+  double measure = 1.0;
+  for (std::size_t k = 1; k < D; ++k) // the part of each edge that is orthogonal to those before
+  {
+    p[k] = Subtract(p[k], p[0]);
+    for (std::size_t j = 1; j < k; ++j)
+    {
+      const double along = Dot(p[k], p[j]) / std::max(Dot(p[j], p[j]), 1e-300);
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        p[k][a] -= along * p[j][a];
+      }
+    }
+    measure *= std::sqrt(Dot(p[k], p[k])) / static_cast<double>(k);
+  }
+  return measure;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+void ComparePieces(const SimplexMesh<D>& mesh, const Components<D>& components,
+  const LabelImage<D>& image, const std::vector<bool>& wanted, ComponentStatistics& statistics,
+  const std::stop_token& stop)
+{
+  const ComponentPieces<D> pieces(
+    MeshElements<D>(mesh, image), FindPieces<D>(mesh, stop), components, image, stop);
+  const double voxel = image.Grid().VoxelVolume();
+  std::map<std::uint32_t, std::vector<double>> volumes; // of the pieces of each component
+  statistics.United.clear();
+  for (const auto& piece : pieces.All())
+  {
+    if (piece.Component != None && wanted[piece.Component])
+    {
+      volumes[piece.Component].push_back(piece.Volume);
+    }
+    std::vector<std::uint32_t> held;
+    for (const auto& [component, volume] : piece.Shares)
+    {
+      const auto voxels = static_cast<double>(components.All()[component].Voxels);
+      if (wanted[component] && volume >= 0.5 * voxel * std::min(voxels, VoxelsThatHold))
+      {
+        held.push_back(component);
+      }
+    }
+    if (held.size() < 2)
+    {
+      continue;
+    }
+    DisjointSets sets = JoinTouching(held, components);
+    std::set<std::uint32_t> names;
+    std::uint32_t smaller = held.front(); // the smallest one that is not of the first set
+    for (std::uint32_t k = 0; k < held.size(); ++k)
+    {
+      names.insert(sets.Find(k));
+      if (sets.Find(k) != 0 &&
+        (smaller == held.front() ||
+          components.All()[held[k]].Voxels < components.All()[smaller].Voxels))
+      {
+        smaller = held[k];
+      }
+    }
+    if (names.size() > 1)
+    {
+      statistics.United.push_back({ MakeReport(components.All()[smaller], image), names.size() });
+    }
+  }
+  std::stable_sort(statistics.United.begin(), statistics.United.end(),
+    [](const auto& a, const auto& b) { return a.Component.Voxels > b.Component.Voxels; });
+  statistics.Broken.clear();
+  for (const auto& [component, all] : volumes)
+  {
+    if (all.size() > 1)
+    {
+      double sum = 0.0;
+      for (const double volume : all)
+      {
+        sum += volume;
+      }
+      statistics.Broken.push_back({ MakeReport(components.All()[component], image), all.size(),
+        *std::max_element(all.begin(), all.end()) / sum });
+    }
+  }
+  const auto looseVoxels = [](const BrokenComponent& broken)
+  { return (1.0 - broken.Largest) * static_cast<double>(broken.Component.Voxels); };
+  std::stable_sort(statistics.Broken.begin(), statistics.Broken.end(),
+    [&](const auto& a, const auto& b) { return looseVoxels(a) > looseVoxels(b); });
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+std::vector<FalseContact> FindFalseContacts(const SimplexMesh<D>& mesh, const LabelImage<D>& image,
+  unsigned threads, const std::stop_token& stop)
+{
+  constexpr std::size_t Grain = 1024;
+  const LabelContacts<D> contacts(image);
+  const std::vector<std::size_t> found = ParallelCollect<std::size_t>(
+    mesh.Facets.size(), Grain, threads,
+    [&](std::size_t first, std::size_t last, std::vector<std::size_t>& some)
+    {
+      for (std::size_t f = first; f < last; ++f)
+      {
+        std::array<const Point<D>*, D> corners;
+        for (std::size_t k = 0; k < D; ++k)
+        {
+          corners[k] = &mesh.Points[mesh.Facets[f][k]];
+        }
+        if (!contacts.TouchNear(corners, LabelIdOf(mesh.FacetLabels[f][0], image),
+              LabelIdOf(mesh.FacetLabels[f][1], image)))
+        {
+          some.push_back(f);
+        }
+      }
+    },
+    stop);
+  std::map<std::array<std::int64_t, 2>, FalseContact> byLabels;
+  std::map<std::array<std::int64_t, 2>, double> largest; // facet
+  for (const std::size_t f : found)
+  {
+    std::array<Point<D>, D> points;
+    Point<D> centroid{};
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      points[k] = mesh.Points[mesh.Facets[f][k]];
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        centroid[a] += points[k][a] / D;
+      }
+    }
+    const double area = MeasureOf<D>(points);
+    FalseContact& contact = byLabels[mesh.FacetLabels[f]];
+    contact.Labels = mesh.FacetLabels[f];
+    ++contact.Facets;
+    contact.Area += area;
+    if (area > largest[mesh.FacetLabels[f]] || contact.Voxel.empty())
+    {
+      largest[mesh.FacetLabels[f]] = area;
+      contact.Voxel.clear();
+      const Point<D> index = image.Grid().ToIndex(centroid);
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        const auto end = static_cast<double>(image.Grid().Dimensions[a] - 1);
+        contact.Voxel.push_back(std::llround(std::clamp(index[a], 0.0, end)));
+      }
+    }
+  }
+  std::vector<FalseContact> all;
+  for (auto& [labels, contact] : byLabels)
+  {
+    all.push_back(std::move(contact));
+  }
+  std::stable_sort(all.begin(), all.end(),
+    [](const FalseContact& a, const FalseContact& b) { return a.Area > b.Area; });
+  return all;
+}
+
+template void ComparePieces<3>(const SimplexMesh<3>&, const Components<3>&, const LabelImage<3>&,
+  const std::vector<bool>&, ComponentStatistics&, const std::stop_token&);
+template void ComparePieces<4>(const SimplexMesh<4>&, const Components<4>&, const LabelImage<4>&,
+  const std::vector<bool>&, ComponentStatistics&, const std::stop_token&);
+template std::vector<FalseContact> FindFalseContacts<3>(
+  const SimplexMesh<3>&, const LabelImage<3>&, unsigned, const std::stop_token&);
+template std::vector<FalseContact> FindFalseContacts<4>(
+  const SimplexMesh<4>&, const LabelImage<4>&, unsigned, const std::stop_token&);
+
+} // namespace voxplex

@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Image/LabelContacts.h"
+
+#include "Base/GridIndex.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/**
+ * Labels touch near a facet if they do so within this part of the distance from its centroid to its
+ * farthest vertex, and a voxel's diagonal. With 1, facets of coarse meshes are taken for right that lie
+ * 1.5 sampling distances away from all contacts.
+ */
+constexpr double FacetReach = 0.5;
+
+} // namespace
+
+template <int D>
+auto LabelContacts<D>::VoxelAt(const Point<D>& p) const -> Index
+{
+  const Point<D> index = this->Image.Grid().ToIndex(p);
+  Index voxel;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    voxel[a] = std::llround(index[a]) - this->Image.CropOrigin()[a];
+  }
+  return voxel;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+auto LabelContacts<D>::LabelsAlong(const Point<D>& from, const Point<D>& to) const -> Runs
+{
+  Point<D> x = this->Image.Grid().ToIndex(from);
+  const Point<D> d = Subtract(this->Image.Grid().ToIndex(to), x);
+  double begin = 0.0;
+  double end = 1.0;
+  double longest = 0.0;
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    x[k] -= static_cast<double>(this->Image.CropOrigin()[k]);
+    longest = std::max(longest, std::abs(d[k]));
+    if (d[k] != 0.0) // to the crop and the layer around it
+    {
+      const double t0 = (-1.0 - x[k]) / d[k];
+      const double t1 = (static_cast<double>(this->Image.CropDimensions()[k]) - x[k]) / d[k];
+      begin = std::max(begin, std::min(t0, t1));
+      end = std::min(end, std::max(t0, t1));
+    }
+  }
+  Runs runs;
+  if (!(begin <= end))
+  {
+    runs.push_back({ 0, 0.0, 1.0 });
+    return runs;
+  }
+  constexpr double StepsPerVoxel = 2.0;
+  const auto steps = static_cast<std::size_t>(std::ceil(StepsPerVoxel * longest * (end - begin)));
+  for (std::size_t i = 0; i <= steps; ++i)
+  {
+    const double t = begin +
+      (end - begin) * static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(steps, 1));
+    Index voxel;
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      voxel[k] = static_cast<std::int64_t>(std::floor(x[k] + t * d[k] + 0.5));
+    }
+    const LabelId label = this->Image.At(voxel);
+    if (runs.empty() || runs.back().Label != label)
+    {
+      runs.push_back({ label, t, t });
+    }
+    runs.back().End = t;
+  }
+  return runs;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+bool LabelContacts<D>::TouchNear(
+  const std::array<const Point<D>*, static_cast<std::size_t>(D)>& corners, LabelId a,
+  LabelId b) const
+{
+  Point<D> centroid{};
+  for (const Point<D>* p : corners)
+  {
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      centroid[k] += (*p)[k] / D;
+    }
+  }
+  const Point<D> index = this->Image.Grid().ToIndex(centroid);
+  Index low; // of the centres of voxels around the centroid
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    low[k] = static_cast<std::int64_t>(std::floor(index[k])) - this->Image.CropOrigin()[k];
+  }
+  Index high = low;
+  for (std::int64_t& k : high)
+  {
+    ++k;
+  }
+  const auto grow = [&](std::size_t k, std::int64_t by)
+  {
+    low[k] -= by;
+    high[k] += by;
+  };
+  if (this->TouchInBox(low, high, a, b))
+  {
+    return true;
+  }
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    grow(k, 1);
+  }
+  if (this->TouchInBox(low, high, a, b))
+  {
+    return true;
+  }
+  double reach2 = 0.0;
+  for (const Point<D>* p : corners)
+  {
+    reach2 = std::max(reach2, Distance2(*p, centroid));
+  }
+  const double reach = FacetReach * std::sqrt(reach2) + this->Diagonal;
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    grow(k, static_cast<std::int64_t>(reach * this->VoxelsPerLength[k]));
+  }
+  return this->TouchInBox(low, high, a, b);
+}
+
+/** Whether two labels touch in a box, with all its voxels. */
+template <int D>
+bool LabelContacts<D>::TouchInBox(const Index& low, const Index& high, LabelId a, LabelId b) const
+{
+  Index extent;
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    extent[k] = high[k] - low[k] + 1;
+  }
+  std::vector<std::uint8_t>
+    has; // 1: a, 2: b, in a voxel and in those after it along the axes that are done
+  has.reserve(CountCells(extent));
+  std::uint8_t any = 0;
+  ForEachIndex(low, high,
+    [&](const Index& voxel)
+    {
+      const LabelId label = this->Image.At(voxel);
+      has.push_back(label == a ? 1 : label == b ? 2 : 0);
+      any |= has.back();
+    });
+  if (any != 3)
+  {
+    return false;
+  }
+  std::size_t stride = 1;
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    const std::size_t line = stride * static_cast<std::size_t>(extent[k]);
+    for (std::size_t begin = 0; begin < has.size(); begin += line)
+    {
+      for (std::size_t i = begin; i + stride < begin + line; ++i) // the last has none after it
+      {
+        has[i] |= has[i + stride];
+      }
+    }
+    stride = line;
+  }
+  return std::find(has.begin(), has.end(), 3) != has.end();
+}
+
+//------------------------------------------------------------------------------------------------
+/** Replaces a voxel without a label by one with it beside it, if there is one. */
+template <int D>
+bool LabelContacts<D>::FindVoxelOf(LabelId label, Index& voxel) const
+{
+  if (this->Image.At(voxel) == label)
+  {
+    return true;
+  }
+  Index low = voxel;
+  Index high = voxel;
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    --low[k];
+    ++high[k];
+  }
+  const Index centre = voxel;
+  std::int64_t nearest = std::numeric_limits<std::int64_t>::max();
+  ForEachIndex(low, high,
+    [&](const Index& at)
+    {
+      std::int64_t steps = 0;
+      for (std::size_t k = 0; k < D; ++k)
+      {
+        steps += std::abs(at[k] - centre[k]);
+      }
+      if (steps < nearest && this->Image.At(at) == label)
+      {
+        nearest = steps;
+        voxel = at;
+      }
+    });
+  return nearest != std::numeric_limits<std::int64_t>::max();
+}
+
+template <int D>
+bool LabelContacts<D>::AreConnected(const Point<D>& p, const Point<D>& q, LabelId label) const
+{
+  Index from = this->VoxelAt(p);
+  Index to = this->VoxelAt(q);
+  if (!this->FindVoxelOf(label, from) || !this->FindVoxelOf(label, to) || from == to)
+  {
+    return true;
+  }
+  Index low;
+  Index extent;
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    low[k] = std::min(from[k], to[k]) - Detour;
+    extent[k] = std::max(from[k], to[k]) + Detour + 1 - low[k];
+    from[k] -= low[k];
+    to[k] -= low[k];
+  }
+  std::vector<bool> isSeen(CountCells(extent));
+  std::vector<Index> front{ from };
+  isSeen[OffsetOf(from, extent)] = true;
+  while (!front.empty())
+  {
+    const Index at = front.back();
+    front.pop_back();
+    if (at == to)
+    {
+      return true;
+    }
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      for (const std::int64_t step : { -1, 1 })
+      {
+        Index next = at;
+        next[k] += step;
+        if (next[k] < 0 || next[k] >= extent[k] || isSeen[OffsetOf(next, extent)])
+        {
+          continue;
+        }
+        isSeen[OffsetOf(next, extent)] = true;
+        Index voxel = next;
+        for (std::size_t j = 0; j < D; ++j)
+        {
+          voxel[j] += low[j];
+        }
+        if (this->Image.At(voxel) == label)
+        {
+          front.push_back(next);
+        }
+      }
+    }
+  }
+  return false;
+}
+
+template class LabelContacts<3>;
+template class LabelContacts<4>;
+
+} // namespace voxplex

@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quality/ComponentPieces.h"
+
+#include "Base/GridIndex.h"
+#include "Geometry/SimplexQuality.h"
+#include "Parallel/ParallelFor.h"
+#include "Quality/ElementVoxels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace voxplex
+{
+
+namespace
+{
+
+/** A facet without its smallest vertex, and an element that has it. */
+template <int D>
+struct SortedFacet
+{
+  std::array<std::uint32_t, static_cast<std::size_t>(D - 1)> Others;
+  std::uint32_t Element;
+
+  bool operator<(const SortedFacet& other) const { return this->Others < other.Others; }
+};
+
+template <int D, typename Visit>
+void ForEachFacet(const SimplexMesh<D>& mesh, const Visit& visit)
+{
+  for (std::uint32_t s = 0; s < mesh.Simplices.size(); ++s)
+  {
+    auto v = mesh.Simplices[s];
+    std::sort(v.begin(), v.end());
+    for (std::size_t without = 0; without <= D; ++without)
+    {
+      SortedFacet<D> facet{ {}, s };
+      const std::size_t first = without == 0 ? 1 : 0;
+      std::size_t n = 0;
+      for (std::size_t k = first + 1; k <= D; ++k)
+      {
+        if (k != without)
+        {
+          facet.Others[n++] = v[k];
+        }
+      }
+      visit(v[first], facet);
+    }
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+DisjointSets FindPieces(const LabelledTriangulation<D>& elements, const std::stop_token& stop)
+{
+  const Triangulation<D>& mesh = elements.GetTriangulation();
+  const std::span<const LabelId> labels = elements.GetLabels();
+  DisjointSets pieces(labels.size());
+  for (SimplexId s = 0; s < labels.size(); ++s)
+  {
+    if (labels[s] != 0)
+    {
+      for (const SimplexId n : mesh.GetSimplex(s).N)
+      {
+        if (n < s && labels[n] == labels[s])
+        {
+          pieces.Join(s, n);
+        }
+      }
+    }
+  }
+  ThrowIfStopped(stop);
+  return pieces;
+}
+
+template <int D>
+DisjointSets FindPieces(const SimplexMesh<D>& mesh, const std::stop_token& stop)
+{
+  std::vector<std::size_t> ends(mesh.Points.size() + 1); // of the facets of each smallest vertex
+  ForEachFacet(mesh, [&](std::uint32_t v, const SortedFacet<D>&) { ++ends[v + 1]; });
+  for (std::size_t v = 1; v < ends.size(); ++v)
+  {
+    ends[v] += ends[v - 1];
+  }
+  ThrowIfStopped(stop);
+  std::vector<SortedFacet<D>> facets(ends.back());
+  ForEachFacet(
+    mesh, [&](std::uint32_t v, const SortedFacet<D>& facet) { facets[ends[v]++] = facet; });
+  ThrowIfStopped(stop);
+  DisjointSets pieces(mesh.Simplices.size());
+  std::size_t first = 0;
+  for (std::size_t v = 0; v < mesh.Points.size(); ++v)
+  {
+    std::sort(facets.begin() + static_cast<std::ptrdiff_t>(first),
+      facets.begin() + static_cast<std::ptrdiff_t>(ends[v]));
+    for (std::size_t k = first + 1; k < ends[v]; ++k)
+    {
+      const SortedFacet<D>& a = facets[k - 1];
+      const SortedFacet<D>& b = facets[k];
+      if (a.Others == b.Others && mesh.Labels[a.Element] == mesh.Labels[b.Element])
+      {
+        pieces.Join(a.Element, b.Element);
+      }
+    }
+    first = ends[v];
+  }
+  ThrowIfStopped(stop);
+  return pieces;
+}
+
+//------------------------------------------------------------------------------------------------
+template <int D>
+template <typename Elements>
+ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets pieces,
+  const Components<D>& components, const LabelImage<D>& image, const std::stop_token& stop)
+  : Numbers(elements.Size(), None)
+{
+  typename Elements::LabelReader labelOf(elements);
+  std::vector<std::uint32_t> parts(image.Values().size()); // pieces and components of each label
+  for (const Component<D>& component : components.All())
+  {
+    ++parts[component.Label];
+  }
+  for (std::uint32_t s = 0; s < this->Numbers.size(); ++s)
+  {
+    const LabelId label = labelOf(s);
+    if (label == 0)
+    {
+      continue;
+    }
+    const std::uint32_t first = pieces.Find(s);
+    if (first == s)
+    {
+      this->Numbers[s] = static_cast<std::uint32_t>(this->List.size());
+      this->List.push_back({ label, None, 0.0, s });
+      ++parts[label];
+    }
+    this->Numbers[s] = this->Numbers[first];
+  }
+  ThrowIfStopped(stop);
+  const ElementVoxels<D> voxels(components, image);
+  const auto cornersOf = [&elements](std::size_t s)
+  {
+    typename ElementVoxels<D>::Corners corners;
+    for (std::size_t i = 0; i <= D; ++i)
+    {
+      corners[i] = &elements.PointOf(s, i);
+    }
+    return corners;
+  };
+  struct HeldVolume
+  {
+    std::array<std::uint32_t, 2> Of; ///< piece, component
+    double Volume;
+  };
+  std::vector<HeldVolume> held;
+  constexpr std::uint32_t OneOfEach = 2;
+  for (std::size_t s = 0; s < this->Numbers.size(); ++s)
+  {
+    if (this->Numbers[s] == None || parts[this->List[this->Numbers[s]].Label] <= OneOfEach)
+    {
+      continue;
+    }
+    Piece& piece = this->List[this->Numbers[s]];
+    const auto corners = cornersOf(s);
+    const double volume = std::abs(SignedVolume<D>(corners.data()));
+    piece.Volume += volume;
+    voxels.ForEachVoxel(corners,
+      [&](const auto& voxel)
+      {
+        const std::uint32_t c = components.At(voxel);
+        if (c == None || components.All()[c].Label != piece.Label)
+        {
+          return;
+        }
+        held.push_back({ { this->Numbers[s], c }, volume });
+      });
+  }
+  ThrowIfStopped(stop);
+  std::stable_sort(
+    held.begin(), held.end(), [](const HeldVolume& a, const HeldVolume& b) { return a.Of < b.Of; });
+  for (std::size_t k = 0; k < held.size(); ++k)
+  {
+    auto& shares = this->List[held[k].Of[0]].Shares;
+    if (k == 0 || held[k - 1].Of != held[k].Of)
+    {
+      shares.emplace_back(held[k].Of[1], 0.0);
+    }
+    shares.back().second += held[k].Volume;
+  }
+  for (Piece& piece : this->List)
+  {
+    const auto largest = std::max_element(piece.Shares.begin(), piece.Shares.end(),
+      [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (largest != piece.Shares.end())
+    {
+      piece.Component = largest->first;
+    }
+    else if (parts[piece.Label] > OneOfEach)
+    {
+      voxels.ForEachVoxel(cornersOf(piece.First),
+        [&](const auto& centre)
+        {
+          voxels.ForEachAround(centre,
+            [&](const auto& voxel)
+            {
+              const std::uint32_t c = components.At(voxel);
+              if (piece.Component == None && c != None && components.All()[c].Label == piece.Label)
+              {
+                piece.Component = c;
+              }
+            });
+        });
+    }
+  }
+}
+
+std::map<std::int64_t, std::uint64_t> CountFragments(
+  const SimplexMesh<3>& mesh, const std::stop_token& stop)
+{
+  DisjointSets pieces = FindPieces<3>(mesh, stop);
+  std::map<std::int64_t, std::uint64_t> numbers;
+  for (std::uint32_t s = 0; s < mesh.Simplices.size(); ++s)
+  {
+    numbers[mesh.Labels[s]] += pieces.Find(s) == s ? 1 : 0;
+  }
+  return numbers;
+}
+
+template DisjointSets FindPieces<3>(const LabelledTriangulation<3>&, const std::stop_token&);
+template DisjointSets FindPieces<4>(const LabelledTriangulation<4>&, const std::stop_token&);
+template DisjointSets FindPieces<3>(const SimplexMesh<3>&, const std::stop_token&);
+template DisjointSets FindPieces<4>(const SimplexMesh<4>&, const std::stop_token&);
+template class ComponentPieces<3>;
+template class ComponentPieces<4>;
+template ComponentPieces<3>::ComponentPieces(const LabelledTriangulation<3>&, DisjointSets,
+  const Components<3>&, const LabelImage<3>&, const std::stop_token&);
+template ComponentPieces<4>::ComponentPieces(const LabelledTriangulation<4>&, DisjointSets,
+  const Components<4>&, const LabelImage<4>&, const std::stop_token&);
+template ComponentPieces<3>::ComponentPieces(const MeshElements<3>&, DisjointSets,
+  const Components<3>&, const LabelImage<3>&, const std::stop_token&);
+template ComponentPieces<4>::ComponentPieces(const MeshElements<4>&, DisjointSets,
+  const Components<4>&, const LabelImage<4>&, const std::stop_token&);
+
+} // namespace voxplex
