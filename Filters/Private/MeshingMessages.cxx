@@ -176,9 +176,9 @@ std::vector<std::string> WarningsOf(const MeshingStatistics& run,
     const auto describe = [](const BrokenComponent& component)
     { return Describe(component.Component) + " in " + std::to_string(component.Fragments); };
     warnings.push_back(std::string(run.Dimension == 4 ? "Pentatopes" : "Tetrahedra") +
-      " of these connected components of the image are in several pieces that no common " +
-      (run.Dimension == 4 ? "facets" : "faces") +
-      " connect: " + ListSome(std::span<const BrokenComponent>(run.Components.Broken), describe) +
+      " of these connected components of the image are in several pieces that no common faces "
+      "connect: " +
+      ListSome(std::span<const BrokenComponent>(run.Components.Broken), describe) +
       (exactComponents ? ". A smaller {delta}, or an image with smaller voxels, may connect them."
                        : ". {exact-components} or a smaller {delta} connects them."));
   }

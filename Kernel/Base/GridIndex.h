@@ -8,6 +8,7 @@
 #define voxplex_GridIndex_h
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -55,6 +56,18 @@ std::array<Integer, D> IndexAt(std::size_t offset, const std::array<Integer, D>&
   {
     index[a] = static_cast<Integer>(offset % static_cast<std::size_t>(extent[a]));
     offset /= static_cast<std::size_t>(extent[a]);
+  }
+  return index;
+}
+
+/** The cell whose centre is nearest, along each axis. */
+template <std::size_t D>
+std::array<std::int64_t, D> NearestIndex(const std::array<double, D>& place)
+{
+  std::array<std::int64_t, D> index;
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    index[a] = std::llround(place[a]);
   }
   return index;
 }

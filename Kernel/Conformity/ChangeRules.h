@@ -9,6 +9,7 @@
 
 #include "Conformity/ManifoldRepair.h"
 #include "Conformity/RepairNeighbourhood.h"
+#include "Geometry/SimplexQuality.h"
 
 #include <algorithm>
 #include <array>
@@ -51,6 +52,7 @@ public:
     const ManifoldRepairOptions<D>& options)
     : Labels(labels)
     , Near(near)
+    , LargestRatio(options.Shape.RadiusEdgeRatio)
     , FacetCosine(std::cos(options.Shape.FacetAngle * std::numbers::pi / 180.0))
     , JunctionCosine(std::cos(options.Shape.JunctionFacetAngle * std::numbers::pi / 180.0))
     , Surfaces(options.Surfaces)
@@ -63,13 +65,15 @@ public:
   /**
    * Whether a change keeps the bounds of shapes and sizes, leaves some of the label beside it, and does
    * not part from the topology of the image.
+   * @param isPart whether there is more of the label and of the component elsewhere
    */
-  bool IsAllowed(const Change& change) const
+  bool IsAllowed(const Change& change, bool isPart = false) const
   {
-    bool leavesSome = false;
+    bool leavesSome = isPart;
     for (const SimplexId t : change.Cells)
     {
-      if (this->IsTooLarge(t, change.Label) || (this->Keeps && this->Keeps(t)))
+      if (this->IsTooLarge(t, change.Label) || this->IsPoor(t, change.Label) ||
+        (this->Keeps && this->Keeps(t)))
       {
         return false;
       }
@@ -183,13 +187,8 @@ private:
    */
   bool IsFalseContact(SimplexId t, unsigned i, LabelId label, LabelId beside) const
   {
-    std::array<const Point<D>*, D> corners;
-    const Facet<D> facet = this->FacetOf(t, i);
-    for (std::size_t k = 0; k < D; ++k)
-    {
-      corners[k] = &this->Near.Position(facet[k]);
-    }
-    return label != beside && !this->Contacts->TouchNear(corners, label, beside);
+    return label != beside &&
+      !this->Contacts->TouchNear(this->Near.Points(this->FacetOf(t, i)), label, beside);
   }
 
   /**
@@ -279,15 +278,7 @@ private:
 
   Point<D> CentroidOf(SimplexId t) const
   {
-    Point<D> centroid{};
-    for (const VertexId v : this->Near.VerticesOf(t))
-    {
-      for (std::size_t a = 0; a < D; ++a)
-      {
-        centroid[a] += this->Near.Position(v)[a] / (D + 1);
-      }
-    }
-    return centroid;
+    return Centroid(this->Near.Points(this->Near.VerticesOf(t)));
   }
 
   /** Whether a tetrahedron is larger than the elements of a label may be. */
@@ -300,6 +291,14 @@ private:
     const Circumball<D> ball = this->Near.Circumball(t);
     const double size = this->Sizing->ElementSize(ball.Center, label);
     return ball.Radius2 > size * size;
+  }
+
+  /** Whether a simplex would become an element with too large a ratio. Those of a label have good ones. */
+  bool IsPoor(SimplexId t, LabelId label) const
+  {
+    return label != 0 && this->Labels[t] == 0 &&
+      RadiusEdgeRatio<D>(this->Near.Points(this->Near.VerticesOf(t)).data(),
+        this->Near.Circumball(t).Radius2) > this->LargestRatio;
   }
 
   /** Where a facet with these angles may be; anywhere in 4D. */
@@ -369,6 +368,7 @@ private:
 
   const std::span<const LabelId> Labels;
   const Neighbourhood<D>& Near;
+  const double LargestRatio;
   const double FacetCosine;
   const double JunctionCosine; ///< at least FacetCosine
   const Domain<D>* const Surfaces;

@@ -17,16 +17,22 @@
 namespace voxplex
 {
 
+namespace
+{
+
+template <int D>
+auto FacetPoints(const Triangulation<D>& mesh, SimplexId s, unsigned i)
+{
+  return mesh.Points(repair::FacetOf<D>(mesh.GetSimplex(s).V, i));
+}
+
+} // namespace
+
 //------------------------------------------------------------------------------------------------
 template <int D>
 bool HiddenLayerFinder<D>::IsFalseContact(SimplexId s, unsigned i, LabelId a, LabelId b) const
 {
-  std::array<const Point<D>*, D> corners;
-  for (unsigned k = 0; k < D; ++k)
-  {
-    corners[k] = &this->Mesh.Position(this->Mesh.GetSimplex(s).V[(i + k + 1) % (D + 1)]);
-  }
-  return a != b && !this->Contacts.TouchNear(corners, a, b);
+  return a != b && !this->Contacts.TouchNear(FacetPoints(this->Mesh, s, i), a, b);
 }
 
 template <int D>
@@ -71,14 +77,7 @@ std::optional<HiddenLayer<D>> HiddenLayerFinder<D>::Find(SimplexId s, unsigned i
     {
       return std::nullopt;
     }
-    Point<D> centroid{};
-    for (unsigned k = 1; k <= D; ++k)
-    {
-      for (std::size_t c = 0; c < D; ++c)
-      {
-        centroid[c] += this->Mesh.Position(simplex.V[(i + k) % (D + 1)])[c] / D;
-      }
-    }
+    const Point<D> centroid = Centroid(FacetPoints(this->Mesh, s, i));
     return HiddenLayer<D>{ s, i, a, { centroid, centroid } };
   }
   const Point<D> before = Interpolate(from, to, runs[layer > 0 ? layer - 1 : 0].End);
@@ -225,12 +224,7 @@ private:
 
   double VolumeOf(SimplexId t) const
   {
-    std::array<const Point<D>*, D + 1> points;
-    for (unsigned i = 0; i <= D; ++i)
-    {
-      points[i] = &this->Near.Position(this->Near.VerticesOf(t)[i]);
-    }
-    return std::abs(SignedVolume<D>(points.data()));
+    return std::abs(SignedVolume<D>(this->Mesh.Points(this->Mesh.GetSimplex(t).V).data()));
   }
 
   const Triangulation<D>& Mesh;

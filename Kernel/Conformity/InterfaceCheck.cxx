@@ -16,7 +16,7 @@ namespace
 
 /** Hidden layers are sampled this many times; more finely each time. */
 constexpr unsigned UsualLayerRounds = 6;
-constexpr unsigned MostLayerRounds = 64;              ///< if components are to be exact
+constexpr unsigned MostLayerRounds = 64; ///< if components are to be exact
 
 /**
  * Unless components are to be exact, thinner layers are not sampled, in spacings of the mesh. Each pair
@@ -66,9 +66,7 @@ bool InterfaceCheck<D>::InspectSampled(const ManifoldLabels<D>& made)
 template <int D>
 bool InterfaceCheck<D>::InspectRidges(const ManifoldLabels<D>& made)
 {
-  return D == 3 && this->MayGoOn() && this->AreFew(made.Places.size()) &&
-    std::any_of(made.Places.begin(), made.Places.end(),
-      [](const NonManifoldPlace<D>& place) { return !place.IsJunction; }) &&
+  return D == 3 && this->MayGoOn() && !made.Places.empty() && this->AreFew(made.Places.size()) &&
     this->Sample({}, made);
 }
 

@@ -26,7 +26,7 @@ namespace
  * non-manifold edge.
  */
 constexpr double RadiusAtFace = 1.0;
-constexpr double RadiusAtEdge = 0.5;
+constexpr double RadiusAtEdge = 0.25;
 
 /**
  * Spacing at the first visit of a far face or an edge, in sampling distances. With 0.5, there is one
@@ -189,7 +189,9 @@ std::size_t LocalSampling<D>::SampleInterfaces(
   }
   for (const NonManifoldPlace<D>& edge : edges)
   {
-    balls.push_back({ edge.Middle, RadiusAtEdge * this->Sizing.AskedNear(edge.Middle) });
+    balls.push_back({ edge.Middle,
+      std::max(RadiusAtEdge * this->Sizing.AskedNear(edge.Middle),
+        this->Image.Grid().SmallestSpacing()) });
   }
   const std::vector<VoxelFace<D>> faces =
     FindFacesNear(this->OfDomain, this->Sites, balls, this->Stop);
@@ -248,12 +250,10 @@ std::size_t LocalSampling<D>::SampleLayers(
 template <int D>
 auto LocalSampling<D>::VoxelAt(const Point<D>& p) const -> Index
 {
-  const Point<D> index = this->Image.Grid().ToIndex(p);
-  Index voxel;
+  Index voxel = this->Image.VoxelAt(p);
   for (std::size_t a = 0; a < D; ++a)
   {
-    voxel[a] = std::clamp<std::int64_t>(
-      std::llround(index[a]) - this->Image.CropOrigin()[a], 0, this->Image.CropDimensions()[a] - 1);
+    voxel[a] = std::clamp<std::int64_t>(voxel[a], 0, this->Image.CropDimensions()[a] - 1);
   }
   return voxel;
 }

@@ -4,7 +4,6 @@
 
 #include "Base/UninitialisedVector.h"
 #include "Conformity/InterfaceVertices.h"
-#include "Conformity/LooseFragments.h"
 #include "Conformity/RepairNeighbourhood.h"
 #include "Parallel/ParallelCollect.h"
 
@@ -21,23 +20,6 @@ namespace
 {
 
 constexpr std::size_t Grain = 8192;
-
-template <int D>
-Point<D> CentroidOf(const Triangulation<D>& triangulation,
-  const std::array<VertexId, static_cast<std::size_t>(D - 1)>& v)
-{
-  Point<D> centroid = triangulation.Position(v[0]);
-  for (std::size_t a = 0; a < centroid.size(); ++a)
-  {
-    double sum = 0.0;
-    for (std::size_t k = 1; k < v.size(); ++k)
-    {
-      sum += triangulation.Position(v[k])[a] - triangulation.Position(v[0])[a];
-    }
-    centroid[a] += sum / static_cast<double>(v.size());
-  }
-  return centroid;
-}
 
 } // namespace
 
@@ -59,22 +41,13 @@ SimplexLabels ManifoldLabeller<D>::MakePlain() const
 }
 
 template <int D>
-ManifoldLabels<D> ManifoldLabeller<D>::Make(bool joins, InterfaceStatistics& statistics)
+ManifoldLabels<D> ManifoldLabeller<D>::Make(double smallestGap, InterfaceStatistics& statistics)
 {
   // If there are more new simplices, it takes less time to look at all of them.
   constexpr std::size_t Share = 32;
   ManifoldLabels<D> made;
   std::vector<SimplexId> changed = this->TakeLabels(made.Labels);
   const bool areFew = changed.size() <= this->Source.SimplexIdEnd() / Share;
-  if constexpr (D == 3)
-  {
-    const std::vector<SimplexId> small = areFew
-      ? FindSmallFragmentsAt(this->Source, made.Labels, changed, this->Threads, this->Stop)
-      : FindSmallFragments(this->Source, made.Labels, this->Threads, this->Stop);
-    const std::vector<SimplexId> relabelled = RelabelLooseFragments(
-      this->Source, made.Labels, small, this->Options, this->Threads, this->Stop);
-    changed.insert(changed.end(), relabelled.begin(), relabelled.end());
-  }
   if (this->Options.Contacts)
   {
     std::sort(changed.begin(), changed.end());
@@ -85,9 +58,10 @@ ManifoldLabels<D> ManifoldLabeller<D>::Make(bool joins, InterfaceStatistics& sta
       this->Source, made.Labels, made.Layers, this->Options, this->Threads, this->Stop);
     changed.insert(changed.end(), shown.begin(), shown.end());
   }
-  if (joins && this->Options.Kept)
+  if (this->Options.Kept)
   {
-    JoinedPieces<D> joined = JoinPieces<D>(this->Source, made.Labels, this->Options, this->Stop);
+    JoinedPieces<D> joined =
+      JoinPieces<D>(this->Source, made.Labels, this->Options, smallestGap, this->Stop);
     changed.insert(changed.end(), joined.Relabelled.begin(), joined.Relabelled.end());
     made.Gaps = std::move(joined.Gaps);
   }
@@ -101,7 +75,7 @@ ManifoldLabels<D> ManifoldLabeller<D>::Make(bool joins, InterfaceStatistics& sta
   made.NonManifold = std::move(result.Left);
   for (const InterfaceRidge<D>& ridge : made.NonManifold)
   {
-    made.Places.push_back({ CentroidOf(this->Source, ridge.Vertices), ridge.IsJunction });
+    made.Places.push_back({ Centroid(this->Source.Points(ridge.Vertices)), ridge.IsJunction });
   }
   std::erase_if(made.Layers,
     [&](const HiddenLayer<D>& layer)

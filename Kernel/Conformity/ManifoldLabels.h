@@ -35,7 +35,7 @@ struct ManifoldLabels
 /**
  * @brief Labels the simplices of a triangulation so that boundaries of labels are manifold.
  *
- * Each simplex gets the label at its circumcentre. Then RelabelLooseFragments() (3D) and RepairManifold() give
+ * Each simplex gets the label at its circumcentre. Then JoinPieces() (3D), ShowHiddenLayers() and RepairManifold() give
  * some of them another label.
  *
  * A simplex keeps the label that it was given as long as it lives (SimplexState::Given). After further
@@ -59,12 +59,12 @@ public:
   /**
    * No thread may change the triangulation during the call. Takes time linear in the number of
    * simplices, if few are repaired.
-   * @param joins whether to join pieces of components, too; otherwise Gaps stay empty
+   * @param smallestGap see JoinPieces()
    * @param statistics counts the ridges that were repaired, and receives the number of those left
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc. Then the next call
    *   looks at the same simplices again.
    */
-  ManifoldLabels<D> Make(bool joins, InterfaceStatistics& statistics);
+  ManifoldLabels<D> Make(double smallestGap, InterfaceStatistics& statistics);
 
   /** The labels at the circumcentres: no loose fragment and no ridge is looked for. */
   SimplexLabels MakePlain() const;

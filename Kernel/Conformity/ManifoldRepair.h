@@ -31,7 +31,6 @@ struct KeptComponents
   const Components<D>& All;
   const LabelImage<D>& Image;
   std::vector<bool> Wanted; ///< by component
-  double SmallestGap = 0.0; ///< pieces with a smaller volume are not told as gaps
 };
 
 /** Constraints on changes of an interface. */

@@ -4,6 +4,7 @@
 
 #include "Base/DisjointSets.h"
 #include "Base/GridIndex.h"
+#include "Geometry/SimplexQuality.h"
 #include "Mesh/MeshElements.h"
 #include "Parallel/ParallelCollect.h"
 #include "Quality/ComponentPieces.h"
@@ -56,25 +57,15 @@ DisjointSets JoinTouching(const std::vector<std::uint32_t>& some, const Componen
   return sets;
 }
 
-/** The area of a facet; in 4D its volume. */
 template <int D>
-double MeasureOf(std::array<Point<D>, static_cast<std::size_t>(D)> p)
+auto CornersOf(const SimplexMesh<D>& mesh, std::size_t facet)
 {
-  double measure = 1.0;
-  for (std::size_t k = 1; k < D; ++k) // the part of each edge that is orthogonal to those before
+  std::array<const Point<D>*, D> corners;
+  for (std::size_t k = 0; k < D; ++k)
   {
-    p[k] = Subtract(p[k], p[0]);
-    for (std::size_t j = 1; j < k; ++j)
-    {
-      const double along = Dot(p[k], p[j]) / std::max(Dot(p[j], p[j]), 1e-300);
-      for (std::size_t a = 0; a < D; ++a)
-      {
-        p[k][a] -= along * p[j][a];
-      }
-    }
-    measure *= std::sqrt(Dot(p[k], p[k])) / static_cast<double>(k);
+    corners[k] = &mesh.Points[mesh.Facets[facet][k]];
   }
-  return measure;
+  return corners;
 }
 
 } // namespace
@@ -162,12 +153,7 @@ std::vector<FalseContact> FindFalseContacts(const SimplexMesh<D>& mesh, const La
     {
       for (std::size_t f = first; f < last; ++f)
       {
-        std::array<const Point<D>*, D> corners;
-        for (std::size_t k = 0; k < D; ++k)
-        {
-          corners[k] = &mesh.Points[mesh.Facets[f][k]];
-        }
-        if (!contacts.TouchNear(corners, LabelIdOf(mesh.FacetLabels[f][0], image),
+        if (!contacts.TouchNear(CornersOf(mesh, f), LabelIdOf(mesh.FacetLabels[f][0], image),
               LabelIdOf(mesh.FacetLabels[f][1], image)))
         {
           some.push_back(f);
@@ -179,17 +165,8 @@ std::vector<FalseContact> FindFalseContacts(const SimplexMesh<D>& mesh, const La
   std::map<std::array<std::int64_t, 2>, double> largest; // facet
   for (const std::size_t f : found)
   {
-    std::array<Point<D>, D> points;
-    Point<D> centroid{};
-    for (std::size_t k = 0; k < D; ++k)
-    {
-      points[k] = mesh.Points[mesh.Facets[f][k]];
-      for (std::size_t a = 0; a < D; ++a)
-      {
-        centroid[a] += points[k][a] / D;
-      }
-    }
-    const double area = MeasureOf<D>(points);
+    const auto corners = CornersOf(mesh, f);
+    const double area = FacetMeasure(corners);
     FalseContact& contact = byLabels[mesh.FacetLabels[f]];
     contact.Labels = mesh.FacetLabels[f];
     ++contact.Facets;
@@ -198,7 +175,7 @@ std::vector<FalseContact> FindFalseContacts(const SimplexMesh<D>& mesh, const La
     {
       largest[mesh.FacetLabels[f]] = area;
       contact.Voxel.clear();
-      const Point<D> index = image.Grid().ToIndex(centroid);
+      const Point<D> index = image.Grid().ToIndex(Centroid(corners));
       for (std::size_t a = 0; a < D; ++a)
       {
         const auto end = static_cast<double>(image.Grid().Dimensions[a] - 1);

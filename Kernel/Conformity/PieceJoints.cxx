@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/PieceJoints.h"
 
-#include "Base/GridIndex.h"
 #include "Conformity/ChangeRules.h"
 #include "Geometry/SimplexQuality.h"
 #include "Mesh/LabelledTriangulation.h"
@@ -15,7 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <map>
 #include <unordered_map>
 #include <utility>
 
@@ -29,6 +28,9 @@ namespace
 constexpr std::size_t MostLookedAt = 20000;
 constexpr unsigned MostWays = 32;
 
+/** Pieces of more simplices keep their label, unless they are smaller than a voxel. */
+constexpr std::size_t MostGivenAway = 5;
+
 /** Around a gap, faces are sampled within this many longest edges of the simplices there. */
 constexpr double GapRadius = 0.5;
 
@@ -37,13 +39,12 @@ template <int D>
 class PieceJoiner
 {
 public:
-  using Index = typename GridGeometry<D>::Index;
-
   PieceJoiner(const Triangulation<D>& triangulation, std::span<LabelId> labels,
-    const ManifoldRepairOptions<D>& options, const std::stop_token& stop)
+    const ManifoldRepairOptions<D>& options, double smallestGap, const std::stop_token& stop)
     : Mesh(triangulation)
     , Labels(labels)
     , Of(*options.Kept)
+    , SmallestGap(smallestGap)
     , Before(labels.begin(), labels.end())
     , Near(triangulation, labels, Before)
     , Rules(this->Near, labels, options)
@@ -61,98 +62,148 @@ public:
     for (std::uint32_t p = 0; p < this->Pieces.All().size(); ++p)
     {
       const auto& piece = this->Pieces.All()[p];
-      if (piece.Component != None && this->Of.Wanted[piece.Component])
+      if (piece.Component != None)
       {
         std::uint32_t& best = largest[piece.Component];
         best = best == None || piece.Volume > this->Pieces.All()[best].Volume ? p : best;
       }
     }
-    std::vector<std::vector<SimplexId>> simplices(this->Pieces.All().size()); // of smaller pieces
-    std::vector<std::uint32_t> smaller;
-    for (std::size_t s = 0; s < this->Labels.size(); ++s)
+    std::map<std::uint32_t, Simplices> smaller; // of the other pieces
+    for (SimplexId s = 0; s < this->Labels.size(); ++s)
     {
       const std::uint32_t p = this->Pieces.Of(s);
       const std::uint32_t c = p == None ? None : this->Pieces.All()[p].Component;
-      if (c != None && largest[c] != None && largest[c] != p)
+      if (c != None && largest[c] != p)
       {
-        if (simplices[p].empty())
-        {
-          smaller.push_back(p);
-        }
-        simplices[p].push_back(static_cast<SimplexId>(s));
+        smaller[p].push_back(s);
       }
     }
-    for (const std::uint32_t p : smaller)
+    for (const auto& [p, simplices] : smaller)
     {
       ThrowIfStopped(this->Stop);
-      this->JoinPiece(p, simplices[p]);
+      this->JoinPiece(p, simplices);
     }
     std::sort(this->Result.Relabelled.begin(), this->Result.Relabelled.end());
     return std::move(this->Result);
   }
 
 private:
-  void JoinPiece(std::uint32_t p, const std::vector<SimplexId>& of)
+  using Simplices = std::vector<SimplexId>;
+
+  void JoinPiece(std::uint32_t p, Simplices of)
   {
-    const LabelId label = this->Pieces.All()[p].Label;
-    std::vector<SimplexId> way;
-    std::uint32_t other = None;
+    const auto& piece = this->Pieces.All()[p];
+    std::erase_if(of, [&](SimplexId s) { return this->Labels[s] != piece.Label; });
+    const bool isWanted = this->Of.Wanted[piece.Component];
+    const bool mayBeGap = isWanted && piece.Volume >= this->SmallestGap;
+    bool isDone = of.empty();
     unsigned ways = 0;
-    this->ForEachWay(p, of, true,
-      [&](std::vector<SimplexId> next, std::uint32_t to)
-      {
-        const repair::Change change{ std::move(next), label };
-        if (change.Cells.empty() || (!this->Rules.Dents(change) && this->Rules.IsAllowed(change)))
-        {
-          way = change.Cells;
-          other = to;
-          return true;
-        }
-        return ++ways == MostWays;
-      });
-    if (other != None)
+    if (isWanted && !isDone)
     {
-      for (const SimplexId s : way)
-      {
-        this->Labels[s] = label;
-        this->Pieces.Move(s, p);
-        this->Result.Relabelled.push_back(s);
-      }
-      this->Joined.Join(p, other);
+      this->ForEachWay(p, of, true,
+        [&](Simplices way)
+        {
+          isDone = this->Give({ std::move(way), piece.Label }, false);
+          return isDone || ++ways == MostWays;
+        });
+    }
+    const bool isSmall =
+      of.size() <= MostGivenAway || piece.Volume < this->Of.Image.Grid().VoxelVolume();
+    if (!isDone && !mayBeGap && isSmall)
+    {
+      this->GiveAway(of);
+    }
+    if (isDone || !mayBeGap)
+    {
       return;
     }
+    Simplices gap = of;
     this->ForEachWay(p, of, false,
-      [&](std::vector<SimplexId> next, std::uint32_t)
+      [&](Simplices way)
       {
-        way = std::move(next);
+        gap = std::move(way);
         return true;
       });
-    if (this->Pieces.All()[p].Volume >= this->Of.SmallestGap)
+    this->AddGap(piece.Component, gap);
+  }
+
+  /** Gives a piece the label beside it with the largest common area that is allowed. */
+  void GiveAway(const Simplices& of)
+  {
+    std::map<LabelId, double> areas;
+    for (const SimplexId s : of)
     {
-      this->AddGap(this->Pieces.All()[p].Component, way.empty() ? of : way);
+      for (unsigned i = 0; i <= D; ++i)
+      {
+        const LabelId beside = this->Near.LabelBeside(s, i);
+        if (beside != this->Labels[s])
+        {
+          areas[beside] +=
+            FacetMeasure(this->Mesh.Points(repair::FacetOf<D>(this->Mesh.GetSimplex(s).V, i)));
+        }
+      }
     }
+    std::multimap<double, LabelId> sorted;
+    for (const auto& [label, area] : areas)
+    {
+      sorted.emplace(-area, label);
+    }
+    for (const auto& [area, label] : sorted)
+    {
+      if (this->Give({ of, label }, true))
+      {
+        return;
+      }
+    }
+  }
+
+  /** Makes a change if it is allowed. @param isPart see ChangeRules::IsAllowed() */
+  bool Give(const repair::Change& change, bool isPart)
+  {
+    if (this->Rules.Dents(change) || !this->Rules.IsAllowed(change, isPart))
+    {
+      return false;
+    }
+    std::uint32_t piece = None; // one of those beside, which are one now
+    for (const SimplexId s : change.Cells)
+    {
+      this->Labels[s] = change.Label;
+      this->Result.Relabelled.push_back(s);
+      for (const SimplexId n : this->Mesh.GetSimplex(s).N)
+      {
+        if (change.Label != 0 && n != None && this->Labels[n] == change.Label && !change.Touches(n))
+        {
+          const std::uint32_t beside = this->Pieces.Of(n);
+          if (piece != None)
+          {
+            this->Joined.Join(piece, beside);
+          }
+          piece = beside;
+        }
+      }
+    }
+    for (const SimplexId s : change.Cells)
+    {
+      this->Pieces.Move(s, piece);
+    }
+    return true;
   }
 
   /**
    * Finds ways from a piece to others of its component that it is not joined with, the shortest first.
    * @param of the simplices of the piece
    * @param onInterfaces whether ways lead through simplices only that have all vertices on interfaces
-   * @param visit visit(way, other piece) tells whether to stop
+   * @param visit visit(way) tells whether to stop
    */
   template <typename Visit>
-  void ForEachWay(
-    std::uint32_t p, const std::vector<SimplexId>& of, bool onInterfaces, const Visit& visit)
+  void ForEachWay(std::uint32_t p, const Simplices& of, bool onInterfaces, const Visit& visit)
   {
     const auto& piece = this->Pieces.All()[p];
     std::unordered_map<SimplexId, SimplexId> comesFrom;
-    std::vector<SimplexId> front;
+    Simplices front = of;
     for (const SimplexId s : of)
     {
-      if (this->Labels[s] == piece.Label)
-      {
-        comesFrom.emplace(s, None);
-        front.push_back(s);
-      }
+      comesFrom.emplace(s, None);
     }
     for (std::size_t k = 0; k < front.size() && k < of.size() + MostLookedAt; ++k)
     {
@@ -168,12 +219,12 @@ private:
           if (this->Pieces.All()[other].Component == piece.Component &&
             this->Joined.Find(other) != this->Joined.Find(p))
           {
-            std::vector<SimplexId> way;
+            Simplices way;
             for (SimplexId s = front[k]; comesFrom.at(s) != None; s = comesFrom.at(s))
             {
               way.push_back(s);
             }
-            if (visit(std::move(way), other))
+            if (visit(std::move(way)))
             {
               return;
             }
@@ -196,134 +247,48 @@ private:
       v.begin(), v.end(), [this](VertexId x) { return this->Near.IsOnInterface(x); });
   }
 
-  void AddGap(std::uint32_t component, const std::vector<SimplexId>& way)
+  void AddGap(std::uint32_t component, const Simplices& way)
   {
     for (const SimplexId s : way)
     {
-      const auto points = this->PointsOf(s);
+      const auto points = this->Mesh.Points(this->Mesh.GetSimplex(s).V);
       double longest2 = 0.0;
-      for (std::size_t i = 0; i <= D; ++i)
+      for (const Point<D>* p : points)
       {
-        for (std::size_t j = 0; j < i; ++j)
+        for (const Point<D>* q : points)
         {
-          longest2 = std::max(longest2, Distance2(points[i], points[j]));
+          longest2 = std::max(longest2, Distance2(*p, *q));
         }
       }
       const double radius =
         std::max(this->Of.Image.Grid().VoxelDiagonal(), GapRadius * std::sqrt(longest2));
-      this->Result.Gaps.push_back({ { CentroidOf(points), radius }, component });
+      this->Result.Gaps.push_back({ { Centroid(points), radius }, component });
     }
   }
 
-  /** Whether a component passes a simplex. */
+  /** Whether voxels of a component have the centroid of a simplex, of a facet of it, or of an edge. */
   bool Passes(std::uint32_t component, SimplexId s) const
   {
-    const auto toIndex = [this](const Point<D>& p)
-    {
-      Point<D> index = this->Of.Image.Grid().ToIndex(p);
-      for (std::size_t a = 0; a < D; ++a)
-      {
-        index[a] -= static_cast<double>(this->Of.Image.CropOrigin()[a]);
-      }
-      return index;
-    };
-    std::array<Point<D>, D + 1> points = this->PointsOf(s);
-    for (Point<D>& p : points)
-    {
-      p = toIndex(p);
-    }
-    const Point<D> centroid = CentroidOf(points);
+    const auto points = this->Mesh.Points(this->Mesh.GetSimplex(s).V);
+    const Point<D> centroid = Centroid(points);
     const auto isIn = [&](const Point<D>& p)
-    {
-      Index voxel;
-      for (std::size_t a = 0; a < D; ++a)
-      {
-        voxel[a] = std::llround(p[a]);
-      }
-      return this->Of.All.At(voxel) == component;
-    };
-    Index low;
-    Index high;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      const auto [least, most] = std::minmax_element(points.begin(), points.end(),
-        [a](const Point<D>& p, const Point<D>& q) { return p[a] < q[a]; });
-      low[a] = std::llround(std::ceil((*least)[a]));
-      high[a] = std::llround(std::floor((*most)[a]));
-    }
+    { return this->Of.All.At(this->Of.Image.VoxelAt(p)) == component; };
     bool passes = isIn(centroid);
-    for (std::size_t i = 0; i <= D; ++i)
+    for (std::size_t i = 0; i <= D && !passes; ++i)
     {
-      Point<D> facet{};
-      for (std::size_t a = 0; a < D; ++a)
+      passes = isIn(Interpolate(*points[i], centroid, (D + 1.0) / D));
+      for (std::size_t j = 0; j < i && !passes; ++j)
       {
-        facet[a] = centroid[a] + (centroid[a] - points[i][a]) / D;
-      }
-      passes = passes || isIn(facet);
-      for (std::size_t j = 0; j < i; ++j)
-      {
-        passes = passes || isIn(Interpolate(points[i], points[j], 0.5));
+        passes = isIn(Interpolate(*points[i], *points[j], 0.5));
       }
     }
-    ForEachIndex(low, high,
-      [&](const Index& at)
-      { passes = passes || (this->Of.All.At(at) == component && Contains(points, at)); });
     return passes;
-  }
-
-  /** Whether the centre of a voxel is in or on a simplex; both in indices. */
-  static bool Contains(const std::array<Point<D>, D + 1>& points, const Index& voxel)
-  {
-    constexpr double Tolerance = 1e-9; // centres may be on facets
-    std::array<const Point<D>*, D + 1> corners;
-    Point<D> centre;
-    for (std::size_t i = 0; i <= D; ++i)
-    {
-      corners[i] = &points[i];
-    }
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      centre[a] = static_cast<double>(voxel[a]);
-    }
-    const double whole = SignedVolume<D>(corners.data());
-    for (std::size_t i = 0; i <= D; ++i)
-    {
-      auto part = corners;
-      part[i] = &centre;
-      if (SignedVolume<D>(part.data()) < -Tolerance * whole)
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  std::array<Point<D>, D + 1> PointsOf(SimplexId s) const
-  {
-    std::array<Point<D>, D + 1> points;
-    for (std::size_t i = 0; i <= D; ++i)
-    {
-      points[i] = this->Mesh.Position(this->Mesh.GetSimplex(s).V[i]);
-    }
-    return points;
-  }
-
-  static Point<D> CentroidOf(const std::array<Point<D>, D + 1>& points)
-  {
-    Point<D> centroid{};
-    for (const Point<D>& p : points)
-    {
-      for (std::size_t a = 0; a < D; ++a)
-      {
-        centroid[a] += p[a] / (D + 1);
-      }
-    }
-    return centroid;
   }
 
   const Triangulation<D>& Mesh;
   const std::span<LabelId> Labels;
   const KeptComponents<D>& Of;
+  const double SmallestGap;
   const SimplexLabels Before;
   const repair::Neighbourhood<D> Near;
   const repair::ChangeRules<D> Rules;
@@ -337,14 +302,14 @@ private:
 
 template <int D>
 JoinedPieces<D> JoinPieces(const Triangulation<D>& triangulation, std::span<LabelId> labels,
-  const ManifoldRepairOptions<D>& options, const std::stop_token& stop)
+  const ManifoldRepairOptions<D>& options, double smallestGap, const std::stop_token& stop)
 {
-  return PieceJoiner<D>(triangulation, labels, options, stop).Join();
+  return PieceJoiner<D>(triangulation, labels, options, smallestGap, stop).Join();
 }
 
 template JoinedPieces<3> JoinPieces<3>(const Triangulation<3>&, std::span<LabelId>,
-  const ManifoldRepairOptions<3>&, const std::stop_token&);
+  const ManifoldRepairOptions<3>&, double, const std::stop_token&);
 template JoinedPieces<4> JoinPieces<4>(const Triangulation<4>&, std::span<LabelId>,
-  const ManifoldRepairOptions<4>&, const std::stop_token&);
+  const ManifoldRepairOptions<4>&, double, const std::stop_token&);
 
 } // namespace voxplex

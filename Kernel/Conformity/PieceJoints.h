@@ -42,21 +42,27 @@ struct JoinedPieces
  * all, and a finite-element model of them falls apart.
  *
  * All pieces of a component but the largest are looked at. From each, a way is searched to another
- * piece, through the fewest simplices that the component passes: those with the centre of one of its
- * voxels inside, or with their centroid in one. If ChangeRules allow it, these simplices get the label of
- * the component. Some of the next best ways are tried, too. Where none is allowed, the first one is a
- * gap, which needs finer sampling.
+ * piece, through the fewest simplices that the component passes: those with the centroid of the simplex, of
+ * a facet or of an edge in one of its voxels. If ChangeRules allow it, these simplices get the label of the
+ * component. Some of the next best ways are tried, too. Where none is allowed,
+ * - a large piece has a gap on the first one, which needs finer sampling;
+ * - a small one, of at most five simplices or less than a voxel, gets the label beside it with the largest
+ *   common area that the rules allow.
+ *
+ * The thesis keeps all pieces.
  *
  * Nobody may change the triangulation during the call. Takes time linear in the number of simplices,
  * and in those that are looked at between pieces.
  *
  * @param labels by simplex id; some are changed
- * @param options of the repair that comes next, with the components to keep
+ * @param options of the repair that comes next, with the components to keep. Pieces of others are given
+ *   away only.
+ * @param smallestGap smaller pieces, by volume, have no gaps
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>
 JoinedPieces<D> JoinPieces(const Triangulation<D>& triangulation, std::span<LabelId> labels,
-  const ManifoldRepairOptions<D>& options, const std::stop_token& stop);
+  const ManifoldRepairOptions<D>& options, double smallestGap, const std::stop_token& stop);
 
 } // namespace voxplex
 

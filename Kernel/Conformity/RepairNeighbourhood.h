@@ -64,6 +64,11 @@ public:
     return this->Source.GetSimplex(t).V;
   }
   const Point<D>& Position(VertexId v) const { return this->Source.Position(v); }
+  template <std::size_t N>
+  std::array<const Point<D>*, N> Points(const std::array<VertexId, N>& v) const
+  {
+    return this->Source.Points(v);
+  }
   /** Whether a vertex had simplices of different labels before any change. */
   bool IsOnInterface(VertexId v) const { return this->Find(v).OnInterface; }
   voxplex::Circumball<D> Circumball(SimplexId t) const { return this->Source.GetCircumball(t); }

@@ -269,12 +269,7 @@ private:
     double volume = 0.0;
     for (const SimplexId t : change.Cells)
     {
-      std::array<const Point<D>*, D + 1> points;
-      for (unsigned i = 0; i <= D; ++i)
-      {
-        points[i] = &this->Near.Position(this->Near.VerticesOf(t)[i]);
-      }
-      volume += std::abs(SignedVolume<D>(points.data()));
+      volume += std::abs(SignedVolume<D>(this->Near.Points(this->Near.VerticesOf(t)).data()));
     }
     return volume;
   }

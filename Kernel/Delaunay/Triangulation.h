@@ -319,6 +319,17 @@ public:
   const Simplex& GetSimplex(SimplexId s) const { return this->Simplices[s]; }
   const Vertex& GetVertex(VertexId v) const { return this->Vertices[v]; }
   const Point<D>& Position(VertexId v) const { return this->Vertices[v].Position; }
+  /** The positions of some vertices. */
+  template <std::size_t M>
+  std::array<const Point<D>*, M> Points(const std::array<VertexId, M>& v) const
+  {
+    std::array<const Point<D>*, M> points;
+    for (std::size_t i = 0; i < M; ++i)
+    {
+      points[i] = &this->Position(v[i]);
+    }
+    return points;
+  }
 
   /** Several threads may call this at once, those for the same vertex with the same answer. */
   void SetOnInterface(VertexId v, bool isOn)
@@ -346,7 +357,6 @@ public:
   VertexId VertexIdEnd() const { return this->NextVertex.load(std::memory_order_relaxed); }
 
   /** The positions of vertices, for the functions of Geometry/. */
-  std::array<const Point<D>*, N> Points(const std::array<VertexId, N>& v) const;
 
   /** Bytes of the records below VertexIdEnd() and SimplexIdEnd(), including unused records. */
   std::uint64_t MemoryBytes() const;
@@ -422,18 +432,6 @@ private:
 // Small steps of the hot paths, inlined into insertion and removal.
 
 //------------------------------------------------------------------------------------------------
-template <int D>
-inline std::array<const Point<D>*, Triangulation<D>::N> Triangulation<D>::Points(
-  const std::array<VertexId, N>& v) const
-{
-  std::array<const Point<D>*, N> points;
-  for (unsigned i = 0; i < N; ++i)
-  {
-    points[i] = &this->Position(v[i]);
-  }
-  return points;
-}
-
 //------------------------------------------------------------------------------------------------
 template <int D>
 inline std::uint32_t Triangulation<D>::NumberVertex(Worker& worker, VertexId v)

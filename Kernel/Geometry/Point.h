@@ -57,6 +57,20 @@ inline double Dot(const std::array<double, D>& a, const std::array<double, D>& b
   return s;
 }
 
+template <std::size_t D, std::size_t N>
+inline std::array<double, D> Centroid(const std::array<const std::array<double, D>*, N>& points)
+{
+  std::array<double, D> r{};
+  for (const std::array<double, D>* p : points)
+  {
+    for (std::size_t i = 0; i < D; ++i)
+    {
+      r[i] += (*p)[i] / static_cast<double>(N);
+    }
+  }
+  return r;
+}
+
 /** Squared Euclidean distance. */
 template <std::size_t D>
 inline double Distance2(const std::array<double, D>& a, const std::array<double, D>& b)

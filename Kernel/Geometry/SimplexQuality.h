@@ -60,6 +60,19 @@ inline Point<4> FacetNormal(const std::array<Point<4>, 4>& p)
   return Cross(Subtract(p[1], p[0]), Subtract(p[2], p[0]), Subtract(p[3], p[0]));
 }
 
+/** The area of a triangle; the volume of a tetrahedron in 4D. */
+template <std::size_t D>
+inline double FacetMeasure(const std::array<const std::array<double, D>*, D>& corners)
+{
+  std::array<std::array<double, D>, D> points;
+  for (std::size_t i = 0; i < D; ++i)
+  {
+    points[i] = *corners[i];
+  }
+  const std::array<double, D> normal = FacetNormal(points);
+  return std::sqrt(Dot(normal, normal)) / (D == 3 ? 2.0 : 6.0);
+}
+
 /** D-dimensional volume, positive for positively oriented simplices. */
 template <int D>
 inline double SignedVolume(const Point<D>* const* v)

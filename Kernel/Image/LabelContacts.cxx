@@ -25,30 +25,17 @@ constexpr double FacetReach = 0.5;
 
 } // namespace
 
-template <int D>
-auto LabelContacts<D>::VoxelAt(const Point<D>& p) const -> Index
-{
-  const Point<D> index = this->Image.Grid().ToIndex(p);
-  Index voxel;
-  for (std::size_t a = 0; a < D; ++a)
-  {
-    voxel[a] = std::llround(index[a]) - this->Image.CropOrigin()[a];
-  }
-  return voxel;
-}
-
 //------------------------------------------------------------------------------------------------
 template <int D>
 auto LabelContacts<D>::LabelsAlong(const Point<D>& from, const Point<D>& to) const -> Runs
 {
-  Point<D> x = this->Image.Grid().ToIndex(from);
-  const Point<D> d = Subtract(this->Image.Grid().ToIndex(to), x);
+  const Point<D> x = this->Image.ToCrop(from);
+  const Point<D> d = Subtract(this->Image.ToCrop(to), x);
   double begin = 0.0;
   double end = 1.0;
   double longest = 0.0;
   for (std::size_t k = 0; k < D; ++k)
   {
-    x[k] -= static_cast<double>(this->Image.CropOrigin()[k]);
     longest = std::max(longest, std::abs(d[k]));
     if (d[k] != 0.0) // to the crop and the layer around it
     {
@@ -70,12 +57,12 @@ auto LabelContacts<D>::LabelsAlong(const Point<D>& from, const Point<D>& to) con
   {
     const double t = begin +
       (end - begin) * static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(steps, 1));
-    Index voxel;
+    Point<D> at;
     for (std::size_t k = 0; k < D; ++k)
     {
-      voxel[k] = static_cast<std::int64_t>(std::floor(x[k] + t * d[k] + 0.5));
+      at[k] = x[k] + t * d[k];
     }
-    const LabelId label = this->Image.At(voxel);
+    const LabelId label = this->Image.At(NearestIndex(at));
     if (runs.empty() || runs.back().Label != label)
     {
       runs.push_back({ label, t, t });
@@ -91,53 +78,31 @@ bool LabelContacts<D>::TouchNear(
   const std::array<const Point<D>*, static_cast<std::size_t>(D)>& corners, LabelId a,
   LabelId b) const
 {
-  Point<D> centroid{};
-  for (const Point<D>* p : corners)
-  {
-    for (std::size_t k = 0; k < D; ++k)
-    {
-      centroid[k] += (*p)[k] / D;
-    }
-  }
-  const Point<D> index = this->Image.Grid().ToIndex(centroid);
-  Index low; // of the centres of voxels around the centroid
-  for (std::size_t k = 0; k < D; ++k)
-  {
-    low[k] = static_cast<std::int64_t>(std::floor(index[k])) - this->Image.CropOrigin()[k];
-  }
-  Index high = low;
-  for (std::int64_t& k : high)
-  {
-    ++k;
-  }
-  const auto grow = [&](std::size_t k, std::int64_t by)
-  {
-    low[k] -= by;
-    high[k] += by;
-  };
-  if (this->TouchInBox(low, high, a, b))
-  {
-    return true;
-  }
-  for (std::size_t k = 0; k < D; ++k)
-  {
-    grow(k, 1);
-  }
-  if (this->TouchInBox(low, high, a, b))
-  {
-    return true;
-  }
+  const Point<D> centroid = Centroid(corners);
   double reach2 = 0.0;
   for (const Point<D>* p : corners)
   {
     reach2 = std::max(reach2, Distance2(*p, centroid));
   }
   const double reach = FacetReach * std::sqrt(reach2) + this->Diagonal;
-  for (std::size_t k = 0; k < D; ++k)
+  const Point<D> index = this->Image.ToCrop(centroid);
+  constexpr double All = std::numeric_limits<double>::infinity();
+  for (const double most : { 0.0, 1.0, All }) // smaller boxes answer most questions
   {
-    grow(k, static_cast<std::int64_t>(reach * this->VoxelsPerLength[k]));
+    Index low; // of the centres of voxels around the centroid
+    Index high;
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      const auto by = static_cast<std::int64_t>(std::min(most, reach * this->VoxelsPerLength[k]));
+      low[k] = static_cast<std::int64_t>(std::floor(index[k])) - by;
+      high[k] = low[k] + 1 + 2 * by;
+    }
+    if (this->TouchInBox(low, high, a, b))
+    {
+      return true;
+    }
   }
-  return this->TouchInBox(low, high, a, b);
+  return false;
 }
 
 /** Whether two labels touch in a box, with all its voxels. */
@@ -149,8 +114,8 @@ bool LabelContacts<D>::TouchInBox(const Index& low, const Index& high, LabelId a
   {
     extent[k] = high[k] - low[k] + 1;
   }
-  std::vector<std::uint8_t>
-    has; // 1: a, 2: b, in a voxel and in those after it along the axes that are done
+  // 1: a, 2: b, in a voxel and in those after it along the axes that are done
+  boost::container::small_vector<std::uint8_t, 512> has;
   has.reserve(CountCells(extent));
   std::uint8_t any = 0;
   ForEachIndex(low, high,
@@ -218,8 +183,8 @@ bool LabelContacts<D>::FindVoxelOf(LabelId label, Index& voxel) const
 template <int D>
 bool LabelContacts<D>::AreConnected(const Point<D>& p, const Point<D>& q, LabelId label) const
 {
-  Index from = this->VoxelAt(p);
-  Index to = this->VoxelAt(q);
+  Index from = this->Image.VoxelAt(p);
+  Index to = this->Image.VoxelAt(q);
   if (!this->FindVoxelOf(label, from) || !this->FindVoxelOf(label, to) || from == to)
   {
     return true;

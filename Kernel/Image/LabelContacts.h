@@ -73,9 +73,6 @@ public:
    */
   Runs LabelsAlong(const Point<D>& from, const Point<D>& to) const;
 
-  /** The voxel of the crop whose centre is nearest to a point, along each axis. */
-  Index VoxelAt(const Point<D>& p) const;
-
 private:
   /** How far beyond both places a connection may run, in voxels. */
   static constexpr std::int64_t Detour = 3;

@@ -7,6 +7,7 @@
 #ifndef voxplex_LabelImage_h
 #define voxplex_LabelImage_h
 
+#include "Base/GridIndex.h"
 #include "Base/UninitialisedVector.h"
 #include "Image/GridGeometry.h"
 
@@ -154,6 +155,19 @@ public:
     }
     return this->WholeGrid.ToFrame(index);
   }
+
+  /** Where a point is in the bounding box, in indices; the inverse of CentreOf(). */
+  Point<D> ToCrop(const Point<D>& p) const
+  {
+    Point<D> index = this->WholeGrid.ToIndex(p);
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      index[a] -= static_cast<double>(this->Origin[a]);
+    }
+    return index;
+  }
+  /** The voxel whose centre is nearest to a point, along each axis. It may be outside the bounding box. */
+  Index VoxelAt(const Point<D>& p) const { return NearestIndex(this->ToCrop(p)); }
 
   /**
    * Whether the first (end 0) or last (end 1) frame of a space-time image has foreground. Then the

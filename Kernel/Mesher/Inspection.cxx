@@ -23,7 +23,7 @@ constexpr unsigned MostGapRounds = 64; ///< if components are to be exact
  * Unless components are to be exact, gaps are sampled beside pieces of at least this number of
  * voxels only. With 8, meshes of brains get 2 to 5 % more elements, for pieces that are seldom missed.
  */
-constexpr double SmallestGap = 27.0;
+constexpr double SmallestUsualGap = 27.0;
 
 template <int D>
 ManifoldRepairOptions<D> MakeRepairOptions(
@@ -38,8 +38,8 @@ ManifoldRepairOptions<D> MakeRepairOptions(
   options.Contacts = D == 3 || run.Options.Components.Exact ? &contacts : nullptr;
   if (const std::optional<Components<D>>& all = run.Prepared.AllComponents; D == 3 && all)
   {
-    options.Kept.emplace(*all, run.Prepared.Image, all->FindWanted(run.Options.Components.Smallest),
-      run.Options.Components.Exact ? 0.0 : SmallestGap * run.Prepared.Image.Grid().VoxelVolume());
+    options.Kept.emplace(
+      *all, run.Prepared.Image, all->FindWanted(run.Options.Components.Smallest));
   }
   options.Keeps = KeepsItsLabel(run, stage.Mesh());
   return options;
@@ -85,6 +85,9 @@ Inspection<D>::Inspection(
   , GapRounds(Dimension<D>::MayRefine(run) && run.Options.Interfaces.Rounds > 0
         ? (run.Options.Components.Exact ? MostGapRounds : UsualGapRounds)
         : 0)
+  , SmallestGap(run.Options.Components.Exact
+        ? 0.0
+        : SmallestUsualGap * run.Prepared.Image.Grid().VoxelVolume())
 {
   const Stopwatch time;
   const PreparedImage<D>& prepared = run.Prepared;
@@ -111,7 +114,7 @@ bool Inspection<D>::Inspect()
   StageTimes& times = this->Run.Statistics.Times;
   {
     const Stopwatch time;
-    this->MakeLabels(false);
+    this->MakeLabels();
     const bool isNeeded = this->Interfaces.InspectSampled(this->Made);
     times.Interfaces += time.Seconds();
     if (isNeeded)
@@ -119,31 +122,6 @@ bool Inspection<D>::Inspect()
       return true;
     }
   }
-  bool isNeeded = this->FindDefects();
-  if (D == 3 && !isNeeded && this->Components)
-  {
-    {
-      const Stopwatch time;
-      this->MakeLabels(true);
-      isNeeded = this->InspectGaps();
-      times.Components += time.Seconds();
-    }
-    isNeeded = this->FindDefects() || isNeeded;
-  }
-  if (!isNeeded)
-  {
-    const Stopwatch time;
-    isNeeded = this->Interfaces.InspectAll(this->Made);
-    times.Interfaces += time.Seconds();
-  }
-  return isNeeded;
-}
-
-/** Steps 2 to 4. */
-template <int D>
-bool Inspection<D>::FindDefects()
-{
-  StageTimes& times = this->Run.Statistics.Times;
   bool isNeeded = false;
   const LabelledTriangulation<D> elements(this->Source, this->Made.Labels);
   if (this->Components)
@@ -160,6 +138,13 @@ bool Inspection<D>::FindDefects()
     [&] { return this->Interfaces.InspectRidges(this->Made); });
   this->Look(isNeeded, HiddenLayers, times.Interfaces,
     [&] { return this->Interfaces.InspectLayers(this->Made, this->Run.Options.Components.Exact); });
+  isNeeded = isNeeded || this->InspectGaps();
+  if (!isNeeded)
+  {
+    const Stopwatch time;
+    isNeeded = this->Interfaces.InspectAll(this->Made);
+    times.Interfaces += time.Seconds();
+  }
   return isNeeded;
 }
 
@@ -193,7 +178,11 @@ bool Inspection<D>::InspectGaps()
   --this->GapRounds;
   statistics.Rounds += points > 0 ? 1 : 0;
   statistics.Seeds += points;
-  return points > 0;
+  // What finer sampling cannot connect, and is smaller than a voxel, is given away then.
+  const double voxel = this->Run.Prepared.Image.Grid().VoxelVolume();
+  const bool givesUp = points == 0 && this->SmallestGap < voxel;
+  this->SmallestGap = givesUp ? voxel : this->SmallestGap;
+  return points > 0 || givesUp;
 }
 
 /** Lets a finder look. */
@@ -213,12 +202,12 @@ void Inspection<D>::Look(bool& isNeeded, Finder finder, double& seconds, const F
 }
 
 template <int D>
-void Inspection<D>::MakeLabels(bool joins)
+void Inspection<D>::MakeLabels()
 {
   this->Made = {}; // the labels of the round before need no memory beside the new ones
   if (this->Run.Options.Interfaces.Manifold)
   {
-    this->Made = this->Labeller.Make(joins, this->Run.Statistics.Interfaces);
+    this->Made = this->Labeller.Make(this->SmallestGap, this->Run.Statistics.Interfaces);
   }
   else
   {

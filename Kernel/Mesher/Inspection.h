@@ -81,8 +81,7 @@ private:
     NumberOfFinders
   };
 
-  void MakeLabels(bool joins);
-  bool FindDefects();
+  void MakeLabels();
   bool InspectGaps();
   template <typename Find>
   void Look(bool& isNeeded, Finder finder, double& seconds, const Find& find);
@@ -97,6 +96,7 @@ private:
   std::optional<ComponentCheck<D>> OfFrames;   ///< likewise, and in 3D
   ManifoldLabels<D> Made;
   unsigned GapRounds;                                ///< that are left
+  double SmallestGap;                                ///< see JoinPieces()
   std::array<bool, NumberOfFinders> NeededNothing{}; ///< at its last inspection
 };
 

@@ -47,22 +47,13 @@ public:
   {
     if (this->Extent == D)
     {
-      Point<D> centroid{};
-      for (std::size_t i = 0; i <= D; ++i)
-      {
-        const Point<D>& p = *element[i];
-        for (std::size_t a = 0; a < D; ++a)
-        {
-          centroid[a] += p[a] / (D + 1);
-        }
-      }
-      visit(this->VoxelOf(this->Image.Grid().ToIndex(centroid)));
+      visit(this->Image.VoxelAt(Centroid(element)));
       return;
     }
     std::array<Point<D>, D + 1> corners;
     for (std::size_t i = 0; i <= D; ++i)
     {
-      corners[i] = this->Image.Grid().ToIndex(*element[i]);
+      corners[i] = this->Image.ToCrop(*element[i]);
     }
     constexpr std::size_t time = D - 1;
     const auto [first, last] = std::minmax_element(corners.begin(), corners.end(),
@@ -73,7 +64,7 @@ public:
       Point<D> centroid;
       if (CutCentroid(corners, static_cast<double>(frame), centroid))
       {
-        visit(this->VoxelOf(centroid));
+        visit(NearestIndex(centroid));
       }
     }
   }
@@ -139,16 +130,6 @@ private:
       x /= static_cast<double>(number);
     }
     return number >= D; // fewer corners span no volume
-  }
-
-  Index VoxelOf(const Point<D>& index) const
-  {
-    Index voxel;
-    for (std::size_t a = 0; a < D; ++a)
-    {
-      voxel[a] = std::llround(index[a]) - this->Image.CropOrigin()[a];
-    }
-    return voxel;
   }
 
   const std::size_t Extent;

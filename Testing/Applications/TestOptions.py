@@ -11,7 +11,7 @@ import numpy as np
 
 import images
 import meshfiles
-from program import PROGRAM, ProgramTestCase, main, without_pieces
+from program import PROGRAM, ProgramTestCase, main, without_topology
 
 
 class Options(ProgramTestCase):
@@ -135,7 +135,7 @@ class Options(ProgramTestCase):
         for arguments in ((), ("--no-manifold",)):
             done = self.call("--input", self.input, "--threads", 1, "--delta", 3, "--smoothing", 0, "--interface-rounds", 0,
                              "--quality", "--stats", "statistics.json", *arguments)
-            self.assertEqual((done.returncode, without_pieces(done.stderr)), (0, ""))
+            self.assertEqual((done.returncode, without_topology(done.stderr)), (0, ""))
             report = json.loads((self.folder / "statistics.json").read_text())
             self.assertEqual(report["parameters"]["no_manifold"], bool(arguments))
             figures.append(report["interfaces"])

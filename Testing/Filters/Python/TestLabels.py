@@ -75,10 +75,13 @@ class Choice(FilterTestCase):
 
 
 class Warnings(FilterTestCase):
-    def run_filter(self, labels, delta):
+    def run_filter(self, labels, delta, keeps_parts=True):
         """The filter, its statistics, and a list that its warnings go into."""
         mesher, warnings = tets(voxplex.Image(labels.astype(numpy.uint8)).to_vtk()), []
         mesher.SetDelta(delta)
+        if not keeps_parts:
+            mesher.SetInterfaceRounds(0)
+            mesher.ManifoldOff()
 
         @calldata_type(VTK_STRING)
         def keep(_caller, _event, text):
@@ -102,11 +105,11 @@ class Warnings(FilterTestCase):
         self.assertIn("lacks", warnings[0])
 
     def test_shrunk(self):
-        """A sheet that is thin for Delta loses volume, and is in pieces."""
+        """A sheet that is thin for Delta loses volume, and is in pieces, if nothing keeps it."""
         k, j, i = numpy.mgrid[:32, :32, :32]
         labels = numpy.where((k >= 8) & (k < 10) & (numpy.hypot(i - 16, j - 16) < 14), 9, 0)
         labels[(i - 18) ** 2 + (j - 18) ** 2 + (k - 22) ** 2 < 64] = 4
-        mesher, statistics, warnings = self.run_filter(labels, 4.0)
+        mesher, statistics, warnings = self.run_filter(labels, 4.0, keeps_parts=False)
         self.assertEqual((statistics.GetNumberOfShrunkLabels(), statistics.GetShrunkLabel(0), statistics.GetShrunkLabel(1)),
                          (1, 9, 0))
         fraction = statistics.GetShrunkLabelFraction(0)
@@ -118,6 +121,8 @@ class Warnings(FilterTestCase):
         self.assertEqual(len(warnings), 2)
         self.assertIn("less than half of the volume of these labels, which are thin for a Delta of 4: 9 (", warnings[0])
         self.assertIn("in several pieces that no common faces connect: ", warnings[1])
+        mesher.SetInterfaceRounds(8)
+        mesher.ManifoldOn()
         mesher.ExactComponentsOn()
         mesher.Update()
         figures = json.loads(statistics.ToJSON())

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Loose fragments get the label beside them, and thin components hold together if they are to be exact.
+// Pieces of components are joined or get the label beside them, and thin components hold together if they are to be exact.
 #include "Base/DisjointSets.h"
 #include "Base/Error.h"
-#include "Conformity/LooseFragments.h"
 #include "Conformity/NonManifoldRidges.h"
 #include "Conformity/OpenRidges.h"
+#include "Conformity/PieceJoints.h"
 #include "Domain/ImageDomain.h"
 #include "Geometry/SimplexQuality.h"
 #include "Image/Components.h"
@@ -35,95 +35,42 @@ namespace
 {
 
 //------------------------------------------------------------------------------------------------
-/** A refined triangulation of blobs with the labels at circumcentres. */
-struct LabelledBlobs
+/** A refined triangulation with the labels at circumcentres. */
+struct LabelledMesh
 {
-  explicit LabelledBlobs(unsigned seed)
-    : Surfaces(this->Image = Blobs(seed), 1.0)
-    , Context(Refined(this->Surfaces, 5.0))
+  LabelledMesh(const LabelImage<3>& image, double delta)
+    : Image(image)
+    , Surfaces(this->Image, 1.0)
+    , Context(Refined(this->Surfaces, delta))
     , Labels(LabelSimplices<3>(this->Context->Mesh, this->Surfaces))
   {
   }
 
   const Triangulation<3>& Mesh() const { return this->Context->Mesh; }
   const auto& NeighboursOf(SimplexId s) const { return this->Mesh().GetSimplex(s).N; }
-  const auto& VerticesOf(SimplexId s) const { return this->Mesh().GetSimplex(s).V; }
 
-  std::vector<SimplexId> Relabel(unsigned threads, const std::stop_token& stop = {})
+  JoinedPieces<3> Join(double smallestGap, const std::stop_token& stop = {}, bool mayRelabel = true)
   {
+    const Components<3> components(this->Image);
     ManifoldRepairOptions<3> options;
     options.Surfaces = &this->Surfaces;
-    return RelabelLooseFragments(this->Mesh(), this->Labels,
-      FindSmallFragments(this->Mesh(), this->Labels, threads, stop), options, threads, stop);
+    options.Kept.emplace(components, this->Image, components.FindWanted(8));
+    options.Keeps = [mayRelabel](SimplexId) { return !mayRelabel; };
+    return JoinPieces<3>(this->Mesh(), this->Labels, options, smallestGap, stop);
   }
 
-  /** The simplices of each fragment, by one of them. */
-  std::map<SimplexId, std::vector<SimplexId>> Fragments() const
+  /** The number of pieces beside the first of each component. */
+  std::size_t LoosePieces() const
   {
-    DisjointSets sets(this->Labels.size());
-    for (SimplexId s = 0; s < this->Labels.size(); ++s)
+    const Components<3> components(this->Image);
+    const LabelledTriangulation<3> elements(this->Mesh(), this->Labels);
+    const ComponentPieces<3> pieces(elements, FindPieces<3>(elements), components, this->Image, {});
+    std::set<std::uint32_t> held;
+    for (const auto& piece : pieces.All())
     {
-      for (std::size_t i = 0; this->Labels[s] != 0 && i < 4; ++i)
-      {
-        const SimplexId n = this->NeighboursOf(s)[i];
-        if (n != None && this->Labels[n] == this->Labels[s])
-        {
-          sets.Join(s, n);
-        }
-      }
+      held.insert(piece.Component);
     }
-    std::map<SimplexId, std::vector<SimplexId>> fragments;
-    for (SimplexId s = 0; s < this->Labels.size(); ++s)
-    {
-      if (this->Labels[s] != 0)
-      {
-        fragments[sets.Find(s)].push_back(s);
-      }
-    }
-    return fragments;
-  }
-
-  /** The simplices of loose fragments, found without the code under test. */
-  std::vector<SimplexId> LooseSimplices() const
-  {
-    const auto fragments = this->Fragments();
-    std::map<std::pair<VertexId, LabelId>, std::size_t> largest;
-    for (const auto& [name, simplices] : fragments)
-    {
-      for (const SimplexId s : simplices)
-      {
-        for (const VertexId v : this->VerticesOf(s))
-        {
-          std::size_t& size = largest[{ v, this->Labels[s] }];
-          size = std::max(size, simplices.size());
-        }
-      }
-    }
-    std::vector<SimplexId> looseFragments;
-    for (const auto& [name, simplices] : fragments)
-    {
-      bool hangs = false;
-      bool hasEnd = false;
-      for (const SimplexId s : simplices)
-      {
-        int same = 0;
-        for (const SimplexId n : this->NeighboursOf(s))
-        {
-          same += n != None && this->Labels[n] == this->Labels[s] ? 1 : 0;
-        }
-        hasEnd = hasEnd || same <= 1;
-        for (const VertexId v : this->VerticesOf(s))
-        {
-          hangs = hangs || largest.at({ v, this->Labels[s] }) > simplices.size();
-        }
-      }
-      if (simplices.size() <= 5 && hangs && hasEnd)
-      {
-        looseFragments.insert(looseFragments.end(), simplices.begin(), simplices.end());
-      }
-    }
-    std::sort(looseFragments.begin(), looseFragments.end());
-    return looseFragments;
+    return pieces.All().size() - held.size();
   }
 
   LabelImage<3> Image;
@@ -304,64 +251,47 @@ SimplexMesh<3> MeshListed(const LabelImage<3>& image, const MeshingOptions<3>& o
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-TEST(LooseFragments, GetTheLabelBesideThem)
+TEST(PieceJoints, JoinOrGiveAwayWhatIsLoose)
 {
   std::size_t found = 0;
+  std::size_t loose = 0;
+  std::size_t left = 0; // some must keep angles good
   for (unsigned seed = 1; seed <= 6; ++seed)
   {
-    LabelledBlobs blobs(seed);
+    LabelledMesh blobs(Blobs(seed), 5.0);
     const SimplexLabels before = blobs.Labels;
-    const std::vector<SimplexId> looseFragments = blobs.LooseSimplices();
-    const std::vector<SimplexId> changed = blobs.Relabel(1);
-    EXPECT_TRUE(
-      std::includes(looseFragments.begin(), looseFragments.end(), changed.begin(), changed.end()));
-    EXPECT_LE(4 * blobs.LooseSimplices().size(),
-      looseFragments.size()); // some must keep angles good, or are new
+    loose += blobs.LoosePieces();
+    const std::vector<SimplexId> changed = blobs.Join(1e9).Relabelled;
+    left += blobs.LoosePieces();
     found += changed.size();
     for (SimplexId s = 0; s < before.size(); ++s)
     {
       const bool isChanged = std::binary_search(changed.begin(), changed.end(), s);
       EXPECT_EQ(blobs.Labels[s] != before[s], isChanged);
-      if (isChanged) // to a label beside its loose fragment
-      {
-        std::vector<SimplexId> loose{ s };
-        bool isBeside = false;
-        for (std::size_t k = 0; k < loose.size(); ++k)
-        {
-          for (const SimplexId n : blobs.NeighboursOf(loose[k]))
-          {
-            const LabelId now = n == None ? LabelId{ 0 } : blobs.Labels[n];
-            isBeside =
-              isBeside || (now == blobs.Labels[s] && (n == None || before[n] != before[s]));
-            if (n != None && before[n] == before[s] &&
-              std::find(loose.begin(), loose.end(), n) == loose.end())
-            {
-              loose.push_back(n);
-            }
-          }
-        }
-        EXPECT_TRUE(isBeside);
-      }
+      const auto& n = blobs.NeighboursOf(s);
+      EXPECT_TRUE(!isChanged ||
+        std::any_of(n.begin(), n.end(),
+          [&](SimplexId t) { return t != None && blobs.Labels[t] == blobs.Labels[s]; }));
     }
   }
   EXPECT_GT(found, 10u);
+  EXPECT_LE(4 * left, loose);
 }
 
-TEST(LooseFragments, DoNotDependOnThreads)
+TEST(PieceJoints, TellGapsOfLargePieces)
 {
-  LabelledBlobs one(1);
-  LabelledBlobs three(1);
-  const auto changed = one.Relabel(1);
-  EXPECT_EQ(changed, three.Relabel(3));
-  EXPECT_TRUE(std::equal(one.Labels.begin(), one.Labels.end(), three.Labels.begin()));
+  LabelledMesh blobs(Blobs(6), 5.0);
+  EXPECT_TRUE(blobs.Join(1e9, {}, false).Gaps.empty());
+  EXPECT_GE(blobs.Join(0.0, {}, false).Gaps.size(), blobs.LoosePieces());
+  EXPECT_GT(blobs.LoosePieces(), 0u);
 }
 
-TEST(LooseFragments, CanBeStopped)
+TEST(PieceJoints, CanBeStopped)
 {
-  LabelledBlobs blobs(1);
+  LabelledMesh blobs(Blobs(1), 5.0);
   std::stop_source source;
   source.request_stop();
-  EXPECT_THROW(blobs.Relabel(1, source.get_token()), Cancelled);
+  EXPECT_THROW(blobs.Join(0.0, source.get_token()), Cancelled);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -426,7 +356,7 @@ TEST(ComponentPieces, AreThoseOfTheExtractedMesh)
 {
   for (unsigned seed = 1; seed <= 6; ++seed)
   {
-    const LabelledBlobs blobs(seed);
+    const LabelledMesh blobs(Blobs(seed), 5.0);
     SimplexMesh<3> mesh;
     ExtractMesh<3>(blobs.Mesh(), blobs.Surfaces, blobs.Labels, mesh, 1);
     const LabelledTriangulation<3> elements(blobs.Mesh(), blobs.Labels);

@@ -80,7 +80,7 @@ TEST(InterfaceCheck, GoesOnWhereItHasTo)
         return mesh;
       };
       const bool wasFar = HasFarFaces(image, extract(labeller.MakePlain()), delta);
-      const ManifoldLabels<3> made = labeller.Make(true, figures);
+      const ManifoldLabels<3> made = labeller.Make(0.0, figures);
       const bool hasPinches = std::any_of(made.NonManifold.begin(), made.NonManifold.end(),
         [](const InterfaceEdge& edge) { return !edge.IsJunction; });
       const bool isFar = HasFarFaces(image, extract(made.Labels), delta);

@@ -76,7 +76,7 @@ public:
   void Update()
   {
     InterfaceStatistics figures;
-    const ManifoldLabels<3> made = this->Labeller.Make(true, figures);
+    const ManifoldLabels<3> made = this->Labeller.Make(0.0, figures);
     const std::set<Point<3>> now = MarkedVertices(this->Mesh);
     EXPECT_EQ(now, VerticesOfFacets(this->Mesh, this->Image, made.Labels));
     this->Added += Difference(now, this->Before).size();

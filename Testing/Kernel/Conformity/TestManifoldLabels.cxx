@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Labels stay with their simplices through further refinement, and boundaries are as manifold as if all
 // simplices were looked at.
-#include "Conformity/LooseFragments.h"
 #include "Conformity/ManifoldLabels.h"
 #include "Delaunay/VertexStar.h"
 #include "Domain/ImageDomain.h"
@@ -128,8 +127,8 @@ std::size_t CheckRounds(std::array<Triangulation<D>*, 2> meshes, const Domain<D>
     {
       ChangeAtRandom(*meshes[k], domain.Bounds(), places, number, random[k]);
     }
-    made = one.Make(true, figures[0]);
-    ExpectSame(three.Make(true, figures[1]), made);
+    made = one.Make(0.0, figures[0]);
+    ExpectSame(three.Make(0.0, figures[1]), made);
     EXPECT_EQ(figures[1].NonManifoldRepaired, figures[0].NonManifoldRepaired);
     EXPECT_EQ(figures[0].NonManifoldLeft, made.NonManifold.size());
 
@@ -151,7 +150,7 @@ std::size_t CheckRounds(std::array<Triangulation<D>*, 2> meshes, const Domain<D>
   if (made.NonManifold.empty())
   {
     meshes[0]->Renumber(2);
-    const ManifoldLabels<D> again = one.Make(true, figures[0]);
+    const ManifoldLabels<D> again = one.Make(0.0, figures[0]);
     EXPECT_EQ(CountLabels(again.Labels), CountLabels(made.Labels));
     EXPECT_EQ(figures[0].NonManifoldRepaired, repaired);
   }
@@ -263,38 +262,5 @@ TEST(NonManifoldRidges, AreFoundAtChangedSimplices)
     const auto found = FindNonManifoldRidgesOf<3>(mesh, labels, changed, 1 + round % 3);
     ExpectSameRidges(found, expected);
     EXPECT_GT(found.size(), 3u);
-  }
-}
-
-TEST(SmallFragments, AreFoundAtChangedSimplices)
-{
-  const LabelImage<3> image = Blobs(2);
-  const ImageDomain<3> domain(image, 1.0);
-  const auto context = Refined(domain, 4.0);
-  const Triangulation<3>& mesh = context->Mesh;
-  SimplexLabels labels = LabelSimplices<3>(mesh, domain);
-  const std::vector<SimplexId> before = FindSmallFragments(mesh, labels, 1, {});
-  std::mt19937 random(1);
-  std::vector<SimplexId> changed;
-  for (int k = 0; k < 200; ++k)
-  {
-    const auto s = static_cast<SimplexId>(random() % labels.size());
-    if (mesh.IsAlive(s))
-    {
-      labels[s] = static_cast<LabelId>(random() % 3);
-      changed.push_back(s);
-    }
-  }
-  // Those that are small now and were not before have a changed simplex, or one beside it.
-  std::vector<SimplexId> fresh = FindSmallFragments(mesh, labels, 1, {});
-  const std::vector<SimplexId> all = fresh;
-  std::erase_if(
-    fresh, [&](SimplexId s) { return std::binary_search(before.begin(), before.end(), s); });
-  EXPECT_GT(fresh.size(), 30u);
-  for (const unsigned threads : { 1u, 3u })
-  {
-    const std::vector<SimplexId> found = FindSmallFragmentsAt(mesh, labels, changed, threads, {});
-    EXPECT_TRUE(std::includes(found.begin(), found.end(), fresh.begin(), fresh.end()));
-    EXPECT_TRUE(std::includes(all.begin(), all.end(), found.begin(), found.end()));
   }
 }

@@ -275,7 +275,7 @@ TEST(SpaceTimeManifoldLabels, GiveFewerBadTriangles)
     InterfaceStatistics figures;
     ManifoldLabeller<4> labeller(refined.Mesh(), options, 1, {});
     const SimplexLabels plain = labeller.MakePlain();
-    const auto repaired = labeller.Make(true, figures);
+    const auto repaired = labeller.Make(0.0, figures);
     EXPECT_EQ(plain, refined.Object);
     EXPECT_NE(repaired.Labels, plain);
 
@@ -326,10 +326,10 @@ TEST(SpaceTimeManifoldLabels, GiveFewerBadTriangles)
 
     // It keeps them, and several threads give the same.
     InterfaceStatistics again;
-    EXPECT_EQ(labeller.Make(true, again).Labels, repaired.Labels);
+    EXPECT_EQ(labeller.Make(0.0, again).Labels, repaired.Labels);
     RefinedObject other(domain, 1.7);
     EXPECT_EQ(
-      ManifoldLabeller<4>(other.Mesh(), options, 4, {}).Make(true, again).Labels, repaired.Labels);
+      ManifoldLabeller<4>(other.Mesh(), options, 4, {}).Make(0.0, again).Labels, repaired.Labels);
   }
 }
 

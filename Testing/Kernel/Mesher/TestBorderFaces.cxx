@@ -352,12 +352,11 @@ TEST(BorderFaces, GetNoDentsInRepair)
       EXPECT_TRUE(result.Left.empty());
       EXPECT_EQ(lostArea(raw, extract(repaired)) < 1e-9, cut) << delta;
     }
-    // A run asks for that, and then has nothing more to do.
+    // A run asks for that.
     options.Interfaces.Rounds = 1;
     options.Interfaces.Manifold = true;
     MeshingStatistics statistics;
     const SimplexMesh<3> mesh = MeshOf(image, options, &statistics);
-    EXPECT_EQ(statistics.Interfaces.Rounds, 0u);
     EXPECT_GT(statistics.Interfaces.NonManifoldRepaired, 0u);
     EXPECT_LT(lostArea(before, mesh), 1e-9) << delta;
   }

@@ -312,7 +312,7 @@ TEST(TetrahedralComplex, KindsHoldAfterFlips)
     }
   }
   EXPECT_GT(flips.Counts().InterfaceFlips, 100u);
-  EXPECT_GT(flips.Counts().Dropped, 100u);
+  EXPECT_GT(flips.Counts().Dropped, 90u);
 
   SimplexMesh<3> after;
   TetrahedralComplex(complex).Write(after);
