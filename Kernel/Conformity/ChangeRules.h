@@ -15,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <numbers>
 #include <span>
@@ -241,38 +240,41 @@ private:
     {
       return true;
     }
-    const LabelId label = this->Labels[some.front()];
-    std::vector<SimplexId> around;
+    std::vector<VertexId> vertices;
     for (const SimplexId t : change.Cells)
     {
-      for (const VertexId v : this->Near.VerticesOf(t))
-      {
-        const std::vector<SimplexId>& star = this->Near.StarOf(v);
-        std::copy_if(star.begin(), star.end(), std::back_inserter(around),
-          [&](SimplexId s) { return this->Labels[s] == label && !change.Touches(s); });
-      }
+      const auto& v = this->Near.VerticesOf(t);
+      vertices.insert(vertices.end(), v.begin(), v.end());
     }
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
+    const LabelId label = this->Labels[some.front()];
+    const auto isAround = [&](SimplexId s)
+    {
+      const auto& v = this->Near.VerticesOf(s);
+      return this->Labels[s] == label && !change.Touches(s) &&
+        std::find_first_of(v.begin(), v.end(), vertices.begin(), vertices.end()) != v.end();
+    };
+    std::vector<SimplexId> apart = some; // one may be beside two cells
     std::vector<SimplexId> reached{ some.front() };
-    for (std::size_t k = 0; k < reached.size(); ++k)
+    std::erase(apart, some.front());
+    for (std::size_t k = 0; k < reached.size() && !apart.empty(); ++k)
     {
       for (unsigned i = 0; i <= D; ++i)
       {
         const SimplexId next = this->Near.Beside(reached[k], i);
-        if (std::binary_search(around.begin(), around.end(), next) &&
+        if (next != None && isAround(next) &&
           std::find(reached.begin(), reached.end(), next) == reached.end())
         {
           reached.push_back(next);
+          std::erase(apart, next);
         }
       }
     }
-    return std::all_of(some.begin(), some.end(),
+    this->Near.See(vertices);
+    return std::all_of(apart.begin(), apart.end(),
       [&](SimplexId s)
       {
-        return std::find(reached.begin(), reached.end(), s) != reached.end() ||
-          this->Contacts->AreConnected(
-            this->CentroidOf(some.front()), this->CentroidOf(s), label) == (label == change.Label);
+        return this->Contacts->AreConnected(this->CentroidOf(some.front()), this->CentroidOf(s),
+                 label) == (label == change.Label);
       });
   }
 

@@ -48,7 +48,7 @@ std::optional<HiddenLayer<D>> HiddenLayerFinder<D>::Find(SimplexId s, unsigned i
   const LabelId b = this->Labels[n];
   for (unsigned k = 1; a == b && k <= D; ++k)
   {
-    if (this->Mesh.GetVertex(simplex.V[(i + k) % (D + 1)]).Kind == VertexKind::Box)
+    if (this->Mesh.GetVertex(simplex.V[(i + k) % (D + 1)]).Kind != VertexKind::Feature)
     {
       return std::nullopt;
     }

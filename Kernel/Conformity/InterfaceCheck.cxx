@@ -108,8 +108,8 @@ template <int D>
 bool InterfaceCheck<D>::Sample(const std::vector<VoxelFace<D>>& far, const ManifoldLabels<D>& made)
 {
   const bool samplesEdges = D == 3 && this->AreFew(made.Places.size());
-  const std::size_t points = this->Sampling.SampleInterfaces(
-    far, samplesEdges ? made.Places : std::vector<NonManifoldPlace<D>>());
+  const std::size_t points =
+    this->Sampling.SampleInterfaces(far, samplesEdges ? made.Places : std::vector<Point<D>>());
   this->Statistics.Rounds += points == 0 ? 0 : 1;
   this->Statistics.Seeds += points;
   return points > 0;

@@ -62,13 +62,13 @@ public:
 
   /**
    * Begins an inspection. Requests finer sampling near far faces, of those that were sampled before; the
-   * first time, of all. If there are any, also at edges that are not manifold.
+   * first time, of all.
    * @return whether anything was requested; the same holds below
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
   bool InspectSampled(const ManifoldLabels<D>& made);
 
-  /** Requests finer sampling at edges that are not manifold, unless all of them are at junctions. */
+  /** Requests finer sampling at edges that are not manifold. */
   bool InspectRidges(const ManifoldLabels<D>& made);
 
   /** Requests finer sampling near far faces, unless this inspection has looked at all faces. */

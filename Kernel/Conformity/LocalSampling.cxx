@@ -23,7 +23,7 @@ namespace
 
 /**
  * Faces are sampled within this many sampling distances of a far face, or of the midpoint of a
- * non-manifold edge.
+ * non-manifold edge, there at least within a voxel. With 0.5 at edges, brains get 3 % more elements.
  */
 constexpr double RadiusAtFace = 1.0;
 constexpr double RadiusAtEdge = 0.25;
@@ -179,7 +179,7 @@ void LocalSampling<D>::Begin()
 //------------------------------------------------------------------------------------------------
 template <int D>
 std::size_t LocalSampling<D>::SampleInterfaces(
-  const std::vector<VoxelFace<D>>& far, const std::vector<NonManifoldPlace<D>>& edges)
+  const std::vector<VoxelFace<D>>& far, const std::vector<Point<D>>& edges)
 {
   std::vector<SearchBall<D>> balls;
   balls.reserve(far.size() + edges.size());
@@ -187,11 +187,11 @@ std::size_t LocalSampling<D>::SampleInterfaces(
   {
     balls.push_back({ CentreOf(face, this->OfDomain), RadiusAtFace * this->AskedDistance(face) });
   }
-  for (const NonManifoldPlace<D>& edge : edges)
+  for (const Point<D>& middle : edges)
   {
-    balls.push_back({ edge.Middle,
-      std::max(RadiusAtEdge * this->Sizing.AskedNear(edge.Middle),
-        this->Image.Grid().SmallestSpacing()) });
+    balls.push_back({ middle,
+      std::max(
+        RadiusAtEdge * this->Sizing.AskedNear(middle), this->Image.Grid().SmallestSpacing()) });
   }
   const std::vector<VoxelFace<D>> faces =
     FindFacesNear(this->OfDomain, this->Sites, balls, this->Stop);

@@ -26,17 +26,6 @@ namespace voxplex
 {
 
 /**
- * The midpoint of a non-manifold edge (a triangle in 4D): some label does not have exactly two
- * boundary facets there.
- */
-template <int D>
-struct NonManifoldPlace
-{
-  Point<D> Middle;
-  bool IsJunction; ///< three or more labels meet there
-};
-
-/**
  * @brief The only one who lowers local sampling distances, and proposes points for it.
  *
  * Checks say which faces of voxels, or which components, need finer sampling. This class decides how
@@ -72,9 +61,9 @@ public:
    * @throws Cancelled if a stop was requested before the end
    */
 
-  /** Around faces that are far from the mesh, and around non-manifold edges. */
+  /** Around faces that are far from the mesh, and around the midpoints of non-manifold edges. */
   std::size_t SampleInterfaces(
-    const std::vector<VoxelFace<D>>& far, const std::vector<NonManifoldPlace<D>>& edges);
+    const std::vector<VoxelFace<D>>& far, const std::vector<Point<D>>& edges);
 
   /** On faces of components whose elements have gaps. */
   std::size_t SampleGaps(const std::vector<VoxelFace<D>>& faces);

@@ -35,19 +35,20 @@ ManifoldLabeller<D>::ManifoldLabeller(Triangulation<D>& triangulation,
 }
 
 template <int D>
-SimplexLabels ManifoldLabeller<D>::MakePlain() const
+ManifoldLabels<D> ManifoldLabeller<D>::Take()
 {
-  return LabelSimplices(this->Source, *this->Options.Surfaces, this->Threads, this->Stop);
+  ManifoldLabels<D> made;
+  made.New = this->TakeLabels(made.Labels);
+  this->Mark(made.Labels, made.New);
+  return made;
 }
 
 template <int D>
-ManifoldLabels<D> ManifoldLabeller<D>::Make(double smallestGap, InterfaceStatistics& statistics)
+ManifoldLabels<D> ManifoldLabeller<D>::Repair(
+  ManifoldLabels<D> made, double smallestGap, InterfaceStatistics& statistics)
 {
-  // If there are more new simplices, it takes less time to look at all of them.
-  constexpr std::size_t Share = 32;
-  ManifoldLabels<D> made;
-  std::vector<SimplexId> changed = this->TakeLabels(made.Labels);
-  const bool areFew = changed.size() <= this->Source.SimplexIdEnd() / Share;
+  std::vector<SimplexId> changed = std::exchange(made.New, {});
+  const bool areFew = this->AreFew(changed);
   if (this->Options.Contacts)
   {
     std::sort(changed.begin(), changed.end());
@@ -75,7 +76,7 @@ ManifoldLabels<D> ManifoldLabeller<D>::Make(double smallestGap, InterfaceStatist
   made.NonManifold = std::move(result.Left);
   for (const InterfaceRidge<D>& ridge : made.NonManifold)
   {
-    made.Places.push_back({ Centroid(this->Source.Points(ridge.Vertices)), ridge.IsJunction });
+    made.Places.push_back(Centroid(this->Source.Points(ridge.Vertices)));
   }
   std::erase_if(made.Layers,
     [&](const HiddenLayer<D>& layer)
@@ -83,16 +84,29 @@ ManifoldLabels<D> ManifoldLabeller<D>::Make(double smallestGap, InterfaceStatist
       const HiddenLayerFinder<D> finder(this->Source, made.Labels, this->Options);
       return !finder.Find(layer.Cell, layer.Facet);
     });
-  changed = this->KeepLabels(made);
-  if (changed.size() <= this->Source.SimplexIdEnd() / Share)
+  this->Mark(made.Labels, this->KeepLabels(made));
+  return made;
+}
+
+/** If there are more, it takes less time to look at all simplices. */
+template <int D>
+bool ManifoldLabeller<D>::AreFew(const Simplices& some) const
+{
+  constexpr std::size_t Share = 32;
+  return some.size() <= this->Source.SimplexIdEnd() / Share;
+}
+
+template <int D>
+void ManifoldLabeller<D>::Mark(const SimplexLabels& labels, const Simplices& changed)
+{
+  if (this->AreFew(changed))
   {
-    MarkInterfaceVerticesOf<D>(this->Source, made.Labels, changed, this->Threads, this->Stop);
+    MarkInterfaceVerticesOf<D>(this->Source, labels, changed, this->Threads, this->Stop);
   }
   else
   {
-    MarkInterfaceVertices<D>(this->Source, made.Labels, this->Threads, this->Stop);
+    MarkInterfaceVertices<D>(this->Source, labels, this->Threads, this->Stop);
   }
-  return made;
 }
 
 /**

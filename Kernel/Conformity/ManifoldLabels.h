@@ -21,13 +21,14 @@
 namespace voxplex
 {
 
-/** The result of ManifoldLabeller::Make(). */
+/** The results of ManifoldLabeller. */
 template <int D>
 struct ManifoldLabels
 {
   SimplexLabels Labels;                       ///< of each simplex id
+  std::vector<SimplexId> New = {};            ///< that are not examined; empty after repair
   std::vector<InterfaceRidge<D>> NonManifold; ///< ridges that are not manifold with these labels
-  std::vector<NonManifoldPlace<D>> Places;    ///< of these ridges
+  std::vector<Point<D>> Places;               ///< of these ridges
   std::vector<HiddenLayer<D>> Layers;         ///< hidden with these labels
   std::vector<PieceGap<D>> Gaps;              ///< see JoinPieces()
 };
@@ -35,8 +36,8 @@ struct ManifoldLabels
 /**
  * @brief Labels the simplices of a triangulation so that boundaries of labels are manifold.
  *
- * Each simplex gets the label at its circumcentre. Then JoinPieces() (3D), ShowHiddenLayers() and RepairManifold() give
- * some of them another label.
+ * Each simplex gets the label at its circumcentre. Then ShowHiddenLayers(), JoinPieces() (3D) and
+ * RepairManifold() give some of them another label.
  *
  * A simplex keeps the label that it was given as long as it lives (SimplexState::Given). After further
  * refinement, defects are looked for at the simplices that are not Examined: those that are new,
@@ -57,22 +58,31 @@ public:
     unsigned threads, const std::stop_token& stop);
 
   /**
-   * No thread may change the triangulation during the call. Takes time linear in the number of
-   * simplices, if few are repaired.
+   * The labels that simplices were given, or have at their circumcentres. Vertices on interfaces are
+   * marked. Takes time linear in the number of simplices.
+   *
+   * No thread may change the triangulation during the call.
+   * @throws Cancelled if a stop was requested before the end; std::bad_alloc
+   */
+  ManifoldLabels<D> Take();
+
+  /**
+   * Repairs labels, and lists what is left. Takes time linear in the number of simplices, if few are
+   * repaired.
+   * @param taken the result of Take()
    * @param smallestGap see JoinPieces()
    * @param statistics counts the ridges that were repaired, and receives the number of those left
-   * @throws Cancelled if a stop was requested before the end; std::bad_alloc. Then the next call
-   *   looks at the same simplices again.
+   * @throws as Take(). Then the next call looks at the same simplices again.
    */
-  ManifoldLabels<D> Make(double smallestGap, InterfaceStatistics& statistics);
-
-  /** The labels at the circumcentres: no loose fragment and no ridge is looked for. */
-  SimplexLabels MakePlain() const;
+  ManifoldLabels<D> Repair(
+    ManifoldLabels<D> taken, double smallestGap, InterfaceStatistics& statistics);
 
 private:
   using Simplices = std::vector<SimplexId>;
 
   Simplices TakeLabels(SimplexLabels& labels) const;
+  bool AreFew(const Simplices& some) const;
+  void Mark(const SimplexLabels& labels, const Simplices& changed);
   Simplices KeepLabels(const ManifoldLabels<D>& made);
 
   Triangulation<D>& Source;

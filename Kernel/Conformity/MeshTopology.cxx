@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -76,8 +77,8 @@ void ComparePieces(const SimplexMesh<D>& mesh, const Components<D>& components,
   const LabelImage<D>& image, const std::vector<bool>& wanted, ComponentStatistics& statistics,
   const std::stop_token& stop)
 {
-  const ComponentPieces<D> pieces(
-    MeshElements<D>(mesh, image), FindPieces<D>(mesh, stop), components, image, stop);
+  const ComponentPieces<D> pieces(MeshElements<D>(mesh, image), FindPieces<D>(mesh, stop),
+    components, image, std::numeric_limits<std::size_t>::max(), stop);
   const double voxel = image.Grid().VoxelVolume();
   std::map<std::uint32_t, std::vector<double>> volumes; // of the pieces of each component
   statistics.United.clear();

@@ -28,6 +28,9 @@ namespace
 constexpr std::size_t MostLookedAt = 20000;
 constexpr unsigned MostWays = 32;
 
+/** So many simplices of a piece decide which component it is of. */
+constexpr std::size_t MostVotes = 256;
+
 /** Pieces of more simplices keep their label, unless they are smaller than a voxel. */
 constexpr std::size_t MostGivenAway = 5;
 
@@ -50,7 +53,7 @@ public:
     , Rules(this->Near, labels, options)
     , Pieces(LabelledTriangulation<D>(triangulation, labels),
         FindPieces<D>(LabelledTriangulation<D>(triangulation, labels), stop), Of.All, Of.Image,
-        stop)
+        MostVotes, stop)
     , Joined(this->Pieces.All().size())
     , Stop(stop)
   {
@@ -65,7 +68,7 @@ public:
       if (piece.Component != None)
       {
         std::uint32_t& best = largest[piece.Component];
-        best = best == None || piece.Volume > this->Pieces.All()[best].Volume ? p : best;
+        best = best == None || piece.Size > this->Pieces.All()[best].Size ? p : best;
       }
     }
     std::map<std::uint32_t, Simplices> smaller; // of the other pieces
@@ -95,7 +98,12 @@ private:
     const auto& piece = this->Pieces.All()[p];
     std::erase_if(of, [&](SimplexId s) { return this->Labels[s] != piece.Label; });
     const bool isWanted = this->Of.Wanted[piece.Component];
-    const bool mayBeGap = isWanted && piece.Volume >= this->SmallestGap;
+    double volume = 0.0;
+    for (const SimplexId s : of)
+    {
+      volume += std::abs(SignedVolume<D>(this->Mesh.Points(this->Mesh.GetSimplex(s).V).data()));
+    }
+    const bool mayBeGap = isWanted && volume >= this->SmallestGap;
     bool isDone = of.empty();
     unsigned ways = 0;
     if (isWanted && !isDone)
@@ -107,8 +115,7 @@ private:
           return isDone || ++ways == MostWays;
         });
     }
-    const bool isSmall =
-      of.size() <= MostGivenAway || piece.Volume < this->Of.Image.Grid().VoxelVolume();
+    const bool isSmall = of.size() <= MostGivenAway || volume < this->Of.Image.Grid().VoxelVolume();
     if (!isDone && !mayBeGap && isSmall)
     {
       this->GiveAway(of);

@@ -85,7 +85,13 @@ public:
     return star.Cells;
   }
 
-  /** The vertices whose stars were asked for, since ForgetSeen(). */
+  /** Tells that simplices around some vertices were looked at. */
+  void See(const std::vector<VertexId>& vertices) const
+  {
+    this->SeenVertices.insert(this->SeenVertices.end(), vertices.begin(), vertices.end());
+  }
+
+  /** The vertices whose stars were asked for, or told of, since ForgetSeen(). */
   const std::vector<VertexId>& Seen() const { return this->SeenVertices; }
   void ForgetSeen() const
   {

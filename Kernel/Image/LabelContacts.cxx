@@ -57,12 +57,12 @@ auto LabelContacts<D>::LabelsAlong(const Point<D>& from, const Point<D>& to) con
   {
     const double t = begin +
       (end - begin) * static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(steps, 1));
-    Point<D> at;
+    Index voxel; // the nearest one, from -1 on
     for (std::size_t k = 0; k < D; ++k)
     {
-      at[k] = x[k] + t * d[k];
+      voxel[k] = static_cast<std::int64_t>(x[k] + t * d[k] + 1.5) - 1;
     }
-    const LabelId label = this->Image.At(NearestIndex(at));
+    const LabelId label = this->Image.At(voxel);
     if (runs.empty() || runs.back().Label != label)
     {
       runs.push_back({ label, t, t });
@@ -118,12 +118,19 @@ bool LabelContacts<D>::TouchInBox(const Index& low, const Index& high, LabelId a
   boost::container::small_vector<std::uint8_t, 512> has;
   has.reserve(CountCells(extent));
   std::uint8_t any = 0;
-  ForEachIndex(low, high,
-    [&](const Index& voxel)
+  Index last = high; // row by row
+  last[0] = low[0];
+  ForEachIndex(low, last,
+    [&](const Index& first)
     {
-      const LabelId label = this->Image.At(voxel);
-      has.push_back(label == a ? 1 : label == b ? 2 : 0);
-      any |= has.back();
+      const std::span<const LabelId> row = this->Image.RowAt(first);
+      for (std::int64_t x = low[0]; x <= high[0]; ++x)
+      {
+        const LabelId label =
+          x >= 0 && x < std::ssize(row) ? row[static_cast<std::size_t>(x)] : LabelId{ 0 };
+        has.push_back(label == a ? 1 : label == b ? 2 : 0);
+        any |= has.back();
+      }
     });
   if (any != 3)
   {
@@ -209,12 +216,12 @@ bool LabelContacts<D>::AreConnected(const Point<D>& p, const Point<D>& q, LabelI
     {
       return true;
     }
-    for (std::size_t k = 0; k < D; ++k)
+    for (const bool isTowards : { false, true }) // the last is the next to be looked at
     {
-      for (const std::int64_t step : { -1, 1 })
+      for (std::size_t k = 0; k < D; ++k)
       {
         Index next = at;
-        next[k] += step;
+        next[k] += (to[k] > at[k]) == isTowards ? 1 : -1;
         if (next[k] < 0 || next[k] >= extent[k] || isSeen[OffsetOf(next, extent)])
         {
           continue;

@@ -131,6 +131,20 @@ public:
     return this->Voxels[static_cast<std::size_t>(at)];
   }
 
+  /** Dense ids of the row of the box along the first axis at an index; empty outside the box. */
+  std::span<const LabelId> RowAt(const Index& voxel) const
+  {
+    for (std::size_t a = 1; a < D; ++a)
+    {
+      if (voxel[a] < 0 || voxel[a] >= this->Extent[a])
+      {
+        return {};
+      }
+    }
+    const auto length = static_cast<std::size_t>(this->Extent[0]);
+    return std::span(this->Voxels).subspan(RowOf(voxel, this->Extent) * length, length);
+  }
+
   /**
    * Dense id at an index of a field's lattice, which begins one layer before the bounding box
    * (TiledLattice). Fields extend beyond a flat end of a space-time image; this function returns 0

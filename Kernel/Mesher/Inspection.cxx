@@ -3,11 +3,12 @@
 #include "Mesher/Inspection.h"
 
 #include "Base/Stopwatch.h"
-#include "Conformity/InterfaceVertices.h"
 #include "Geometry/ShapeBounds.h"
 #include "Mesh/LabelledTriangulation.h"
 #include "Mesher/Dimension.h"
 #include "Refinement/Rules/PlaneLabels.h"
+
+#include <utility>
 
 namespace voxplex
 {
@@ -114,8 +115,14 @@ bool Inspection<D>::Inspect()
   StageTimes& times = this->Run.Statistics.Times;
   {
     const Stopwatch time;
-    this->MakeLabels();
+    this->Made = {}; // the labels of the round before need no memory beside the new ones
+    this->Made = this->Labeller.Take();
     const bool isNeeded = this->Interfaces.InspectSampled(this->Made);
+    if (!isNeeded && this->Run.Options.Interfaces.Manifold)
+    {
+      this->Made = this->Labeller.Repair(
+        std::move(this->Made), this->SmallestGap, this->Run.Statistics.Interfaces);
+    }
     times.Interfaces += time.Seconds();
     if (isNeeded)
     {
@@ -199,22 +206,6 @@ void Inspection<D>::Look(bool& isNeeded, Finder finder, double& seconds, const F
   this->NeededNothing[finder] = !needs;
   isNeeded |= needs;
   seconds += time.Seconds();
-}
-
-template <int D>
-void Inspection<D>::MakeLabels()
-{
-  this->Made = {}; // the labels of the round before need no memory beside the new ones
-  if (this->Run.Options.Interfaces.Manifold)
-  {
-    this->Made = this->Labeller.Make(this->SmallestGap, this->Run.Statistics.Interfaces);
-  }
-  else
-  {
-    this->Made.Labels = this->Labeller.MakePlain();
-    MarkInterfaceVertices<D>(
-      this->Source, this->Made.Labels, this->Run.Options.Team.Threads, this->Run.Stop);
-  }
 }
 
 template class Inspection<3>;

@@ -81,7 +81,6 @@ private:
     NumberOfFinders
   };
 
-  void MakeLabels();
   bool InspectGaps();
   template <typename Find>
   void Look(bool& isNeeded, Finder finder, double& seconds, const Find& find);

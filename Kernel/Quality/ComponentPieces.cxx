@@ -117,7 +117,8 @@ DisjointSets FindPieces(const SimplexMesh<D>& mesh, const std::stop_token& stop)
 template <int D>
 template <typename Elements>
 ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets pieces,
-  const Components<D>& components, const LabelImage<D>& image, const std::stop_token& stop)
+  const Components<D>& components, const LabelImage<D>& image, std::size_t most,
+  const std::stop_token& stop)
   : Numbers(elements.Size(), None)
 {
   typename Elements::LabelReader labelOf(elements);
@@ -137,7 +138,7 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets piece
     if (first == s)
     {
       this->Numbers[s] = static_cast<std::uint32_t>(this->List.size());
-      this->List.push_back({ label, None, 0.0, s });
+      this->List.push_back({ .Label = label, .First = s });
       ++parts[label];
     }
     this->Numbers[s] = this->Numbers[first];
@@ -162,11 +163,15 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets piece
   constexpr std::uint32_t OneOfEach = 2;
   for (std::size_t s = 0; s < this->Numbers.size(); ++s)
   {
-    if (this->Numbers[s] == None || parts[this->List[this->Numbers[s]].Label] <= OneOfEach)
+    if (this->Numbers[s] == None)
     {
       continue;
     }
     Piece& piece = this->List[this->Numbers[s]];
+    if (++piece.Size > most || parts[piece.Label] <= OneOfEach)
+    {
+      continue;
+    }
     const auto corners = cornersOf(s);
     const double volume = std::abs(SignedVolume<D>(corners.data()));
     piece.Volume += volume;
@@ -239,12 +244,12 @@ template DisjointSets FindPieces<4>(const SimplexMesh<4>&, const std::stop_token
 template class ComponentPieces<3>;
 template class ComponentPieces<4>;
 template ComponentPieces<3>::ComponentPieces(const LabelledTriangulation<3>&, DisjointSets,
-  const Components<3>&, const LabelImage<3>&, const std::stop_token&);
+  const Components<3>&, const LabelImage<3>&, std::size_t, const std::stop_token&);
 template ComponentPieces<4>::ComponentPieces(const LabelledTriangulation<4>&, DisjointSets,
-  const Components<4>&, const LabelImage<4>&, const std::stop_token&);
+  const Components<4>&, const LabelImage<4>&, std::size_t, const std::stop_token&);
 template ComponentPieces<3>::ComponentPieces(const MeshElements<3>&, DisjointSets,
-  const Components<3>&, const LabelImage<3>&, const std::stop_token&);
+  const Components<3>&, const LabelImage<3>&, std::size_t, const std::stop_token&);
 template ComponentPieces<4>::ComponentPieces(const MeshElements<4>&, DisjointSets,
-  const Components<4>&, const LabelImage<4>&, const std::stop_token&);
+  const Components<4>&, const LabelImage<4>&, std::size_t, const std::stop_token&);
 
 } // namespace voxplex

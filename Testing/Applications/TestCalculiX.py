@@ -7,8 +7,10 @@ import subprocess
 
 import numpy as np
 
+import images
+import meshfiles
 from labelledmesh import LabelledMeshTestCase
-from program import main
+from program import ProgramTestCase, main
 
 PRESSURE = 0.5
 
@@ -97,6 +99,65 @@ class CalculiX(LabelledMeshTestCase):
     def test_pressure_on_the_interface(self):
         """It acts on the elements with the larger label."""
         self.check("label_7__label_3")
+
+
+WALL = """\
+*NODE, NSET=all
+%(nodes)s
+*ELEMENT, TYPE=C3D4, ELSET=wall
+%(elements)s
+*MATERIAL, NAME=one
+*ELASTIC
+1., 0.3
+*DENSITY
+1e-6
+*SOLID SECTION, ELSET=wall, MATERIAL=one
+*NSET, NSET=bottom
+%(bottom)s
+*STEP
+*STATIC
+*BOUNDARY
+bottom, 1, 3
+*DLOAD
+wall, GRAV, 1., 0., 0., -1.
+*NODE PRINT, NSET=all
+U
+*END STEP
+"""
+
+
+class ThinWall(ProgramTestCase):
+    """A dome of one voxel, as one body. What hangs on by a vertex or not at all would fall without end."""
+
+    def displacement(self, array, *arguments):
+        """The largest one under its own weight."""
+        self.call("--input", images.write_nrrd(self.folder / "wall.nrrd", array), "--output", "wall.vtu", *arguments)
+        mesh = meshfiles.read_tetrahedra(self.folder / "wall.vtu")
+        z = mesh.points[:, 2]
+
+        def rows(numbers, values):
+            return "\n".join(", ".join([str(n), *map(repr, row)]) for n, row in zip(numbers, values))
+
+        (self.folder / "wall.inp").write_text(WALL % {
+            "nodes": rows(range(1, len(z) + 1), mesh.points.astype(float).tolist()),
+            "elements": rows(range(1, len(mesh.cells) + 1), (mesh.cells + 1).tolist()),
+            "bottom": ",\n".join(map(str, np.nonzero(z < z.min() + 2)[0] + 1))})
+        done = subprocess.run(["ccx", "wall"], cwd=self.folder, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        text = (self.folder / "wall.dat").read_text()
+        rows = [line.split() for line in text[text.index("displacements"):].split("\n")[2:] if line.strip()]
+        return float(np.abs(np.array(rows, dtype=float)[:, 1:]).max())
+
+    def test_is_one_body(self):
+        k, j, i = np.mgrid[:36, :32, :32]
+        radius = np.sqrt((i - 15.5) ** 2 + (j - 15.5) ** 2 + (k - 16) ** 2)
+        dome = ((radius < 13) & (radius >= 12) & (k >= 16)).astype(np.uint8)
+        found = {}
+        for delta in (1, 1.5, 2, 3):
+            for flags in ((), ("--exact-components",)):
+                found[delta, flags] = self.displacement(dome, "--delta", delta, "--threads", 1, *flags)
+        self.assertGreater(min(found.values()), 0)
+        self.assertLess(max(found.values()), 2 * min(found.values()), found)
 
 
 if __name__ == "__main__":

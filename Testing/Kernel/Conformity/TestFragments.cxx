@@ -64,7 +64,8 @@ struct LabelledMesh
   {
     const Components<3> components(this->Image);
     const LabelledTriangulation<3> elements(this->Mesh(), this->Labels);
-    const ComponentPieces<3> pieces(elements, FindPieces<3>(elements), components, this->Image, {});
+    const ComponentPieces<3> pieces(
+      elements, FindPieces<3>(elements), components, this->Image, 1000, {});
     std::set<std::uint32_t> held;
     for (const auto& piece : pieces.All())
     {
@@ -361,7 +362,7 @@ TEST(ComponentPieces, AreThoseOfTheExtractedMesh)
     ExtractMesh<3>(blobs.Mesh(), blobs.Surfaces, blobs.Labels, mesh, 1);
     const LabelledTriangulation<3> elements(blobs.Mesh(), blobs.Labels);
     const ComponentPieces<3> pieces(
-      elements, FindPieces<3>(elements), Components<3>(blobs.Image), blobs.Image, {});
+      elements, FindPieces<3>(elements), Components<3>(blobs.Image), blobs.Image, 1000000, {});
     std::map<std::int64_t, std::uint64_t> numbers;
     for (const auto& piece : pieces.All())
     {
@@ -369,7 +370,7 @@ TEST(ComponentPieces, AreThoseOfTheExtractedMesh)
     }
     EXPECT_EQ(numbers, CountFragments(mesh));
     const ComponentPieces<3> extracted(MeshElements<3>(mesh, blobs.Image), FindPieces<3>(mesh),
-      Components<3>(blobs.Image), blobs.Image, {});
+      Components<3>(blobs.Image), blobs.Image, 1000000, {});
     std::map<std::uint32_t, double> volumes; // by component
     for (const auto& piece : pieces.All())
     {

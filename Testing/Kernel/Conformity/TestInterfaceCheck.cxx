@@ -6,6 +6,7 @@
 #include "Domain/ImageDomain.h"
 #include "InterfaceChecks.h"
 #include "RefinementChecks.h"
+#include "RepairTesting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,8 +80,8 @@ TEST(InterfaceCheck, GoesOnWhereItHasTo)
         ExtractMesh<3>(context.Mesh, domain, labels, mesh);
         return mesh;
       };
-      const bool wasFar = HasFarFaces(image, extract(labeller.MakePlain()), delta);
-      const ManifoldLabels<3> made = labeller.Make(0.0, figures);
+      const bool wasFar = HasFarFaces(image, extract(labeller.Take().Labels), delta);
+      const ManifoldLabels<3> made = checks::LabelsOf(labeller, figures);
       const bool hasPinches = std::any_of(made.NonManifold.begin(), made.NonManifold.end(),
         [](const InterfaceEdge& edge) { return !edge.IsJunction; });
       const bool isFar = HasFarFaces(image, extract(made.Labels), delta);

@@ -8,6 +8,7 @@
 #include "InterfaceChecks.h"
 #include "Mesh/MeshExtraction.h"
 #include "RefinementChecks.h"
+#include "RepairTesting.h"
 
 #include <gtest/gtest.h>
 
@@ -76,7 +77,7 @@ public:
   void Update()
   {
     InterfaceStatistics figures;
-    const ManifoldLabels<3> made = this->Labeller.Make(0.0, figures);
+    const ManifoldLabels<3> made = checks::LabelsOf(this->Labeller, figures);
     const std::set<Point<3>> now = MarkedVertices(this->Mesh);
     EXPECT_EQ(now, VerticesOfFacets(this->Mesh, this->Image, made.Labels));
     this->Added += Difference(now, this->Before).size();

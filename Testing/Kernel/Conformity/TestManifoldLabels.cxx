@@ -8,6 +8,7 @@
 #include "InterfaceChecks.h"
 #include "Refinement/Rules/Rules4D.h"
 #include "RefinementChecks.h"
+#include "RepairTesting.h"
 
 #include <gtest/gtest.h>
 
@@ -127,15 +128,15 @@ std::size_t CheckRounds(std::array<Triangulation<D>*, 2> meshes, const Domain<D>
     {
       ChangeAtRandom(*meshes[k], domain.Bounds(), places, number, random[k]);
     }
-    made = one.Make(0.0, figures[0]);
-    ExpectSame(three.Make(0.0, figures[1]), made);
+    made = checks::LabelsOf(one, figures[0]);
+    ExpectSame(checks::LabelsOf(three, figures[1]), made);
     EXPECT_EQ(figures[1].NonManifoldRepaired, figures[0].NonManifoldRepaired);
     EXPECT_EQ(figures[0].NonManifoldLeft, made.NonManifold.size());
 
     // Nothing is overlooked, though few simplices are looked at.
     ExpectSameRidges(made.NonManifold, FindNonManifoldRidges<D>(mesh, made.Labels));
 
-    const SimplexLabels plain = one.MakePlain();
+    const SimplexLabels plain = LabelSimplices<D>(mesh, domain);
     places.clear();
     for (SimplexId s = 0; s < plain.size(); ++s)
     {
@@ -150,7 +151,7 @@ std::size_t CheckRounds(std::array<Triangulation<D>*, 2> meshes, const Domain<D>
   if (made.NonManifold.empty())
   {
     meshes[0]->Renumber(2);
-    const ManifoldLabels<D> again = one.Make(0.0, figures[0]);
+    const ManifoldLabels<D> again = checks::LabelsOf(one, figures[0]);
     EXPECT_EQ(CountLabels(again.Labels), CountLabels(made.Labels));
     EXPECT_EQ(figures[0].NonManifoldRepaired, repaired);
   }

@@ -7,6 +7,7 @@
 #include "MeshChecks.h"
 #include "Refinement/Rules/Rules4D.h"
 #include "RefinementChecks.h"
+#include "RepairTesting.h"
 #include "SpaceTimeCases.h"
 
 #include <gtest/gtest.h>
@@ -274,8 +275,8 @@ TEST(SpaceTimeManifoldLabels, GiveFewerBadTriangles)
     options.Surfaces = &domain;
     InterfaceStatistics figures;
     ManifoldLabeller<4> labeller(refined.Mesh(), options, 1, {});
-    const SimplexLabels plain = labeller.MakePlain();
-    const auto repaired = labeller.Make(0.0, figures);
+    const SimplexLabels plain = labeller.Take().Labels;
+    const auto repaired = checks::LabelsOf(labeller, figures);
     EXPECT_EQ(plain, refined.Object);
     EXPECT_NE(repaired.Labels, plain);
 
@@ -326,10 +327,10 @@ TEST(SpaceTimeManifoldLabels, GiveFewerBadTriangles)
 
     // It keeps them, and several threads give the same.
     InterfaceStatistics again;
-    EXPECT_EQ(labeller.Make(0.0, again).Labels, repaired.Labels);
+    EXPECT_EQ(checks::LabelsOf(labeller, again).Labels, repaired.Labels);
     RefinedObject other(domain, 1.7);
-    EXPECT_EQ(
-      ManifoldLabeller<4>(other.Mesh(), options, 4, {}).Make(0.0, again).Labels, repaired.Labels);
+    ManifoldLabeller<4> others(other.Mesh(), options, 4, {});
+    EXPECT_EQ(checks::LabelsOf(others, again).Labels, repaired.Labels);
   }
 }
 

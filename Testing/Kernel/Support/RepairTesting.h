@@ -4,6 +4,7 @@
 #ifndef voxplex_RepairTesting_h
 #define voxplex_RepairTesting_h
 
+#include "Conformity/ManifoldLabels.h"
 #include "Conformity/ManifoldRepair.h"
 
 #include <cstddef>
@@ -32,6 +33,13 @@ Repaired<D> RepairAll(const Triangulation<D>& triangulation, std::span<LabelId> 
   Repaired<D> result{ RepairManifold<D>(triangulation, labels, ridges, options, threads, stop) };
   result.Before = ridges.size();
   return result;
+}
+
+/** The labels after a repair that tells all gaps. */
+template <int D>
+ManifoldLabels<D> LabelsOf(ManifoldLabeller<D>& labeller, InterfaceStatistics& figures)
+{
+  return labeller.Repair(labeller.Take(), 0.0, figures);
 }
 
 } // namespace voxplex::checks
