@@ -40,7 +40,8 @@
  * @par CheckImage
  * Output 1 then has rows for what is suspicious after the repair, too; nothing is changed. What is: `components` beside the
  * largest of a label, `crumbs` (components of fewer than 8 voxels), `cavities`, `spikes`, `thin` (parts thinner than two
- * voxels), `contacts` (voxels that meet at an edge or corner only; counted are voxels), `border` (voxels at the border of
+ * voxels), `necks` (parts thinner than three voxels that connect thicker ones), `gaps` (background thinner than two
+ * voxels, at each label beside it), `contacts` (voxels that meet at an edge or corner only; counted are voxels), `border` (voxels at the border of
  * the image), `absent` (named labels without voxels), `unnamed` (labels without a name, if others have one).
  *
  * Lengths are in the unit of the spacing, along the image's axes, which are taken for orthogonal.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <set>
 
 namespace voxplex
 {
@@ -87,6 +88,48 @@ void SegmentationRepair::AddContacts(std::vector<RepairRow>& rows) const
   contacts.AppendTo(rows);
 }
 
+/** Background thinner than two voxels, at each label beside it, unless it is a cavity. */
+void SegmentationRepair::AddGaps(std::vector<RepairRow>& rows) const
+{
+  std::vector<bool> isThin(this->Ids.size(), false);
+  std::map<LabelId, Positions> beside;
+  for (const std::int64_t position :
+    this->FindVoxels(
+      [this](const VoxelIndex&voxel, LabelId) { return !this->IsInBlock(voxel, 0, 0b111); }, true))
+  {
+    isThin[Unsigned(position)] = true;
+    std::set<LabelId> labels;
+    this->ForEachNeighbour(
+      position, [&](std::int64_t neighbour) { labels.insert(this->Ids[Unsigned(neighbour)]); });
+    labels.erase(0);
+    for (const LabelId id : labels)
+    {
+      beside[id].push_back(position);
+    }
+  }
+  const auto isOpen = [&](std::int64_t position)
+  {
+    bool ends = this->IsAtBorder(this->IndexOf(position));
+    this->ForEachNeighbour(position,
+      [&](std::int64_t neighbour)
+      { ends = ends || (this->Ids[Unsigned(neighbour)] == 0 && !isThin[Unsigned(neighbour)]); });
+    return ends;
+  };
+  Rows gaps{ "gaps", {} };
+  for (const auto& [id, positions] : beside)
+  {
+    for (const Positions& piece : this->PiecesOf(positions, id))
+    {
+      if (std::any_of(piece.begin(), piece.end(), isOpen))
+      {
+        const VoxelBox box = this->BoxOf(piece);
+        gaps.Add(this->Values[id], std::ssize(piece), box.First, box.Last);
+      }
+    }
+  }
+  gaps.AppendTo(rows);
+}
+
 /** Labels at the border of the image. */
 void SegmentationRepair::AddBorders(std::vector<RepairRow>& rows) const
 {
@@ -126,6 +169,8 @@ std::vector<RepairRow> SegmentationRepair::FindSuspicious(
   addPieces("thin",
     this->PiecesOf(this->FindVoxels(
       [this](const VoxelIndex& voxel, LabelId id) { return !this->IsInBlock(voxel, id, 0b111); })));
+  addPieces("necks", this->FindNecks());
+  this->AddGaps(rows);
   this->AddContacts(rows);
   this->AddBorders(rows);
   std::vector<bool> occurs(this->Values.size(), false);

@@ -87,16 +87,19 @@ bool SegmentationRepair::IsAtBorder(const VoxelIndex& voxel) const
 }
 
 /** Nobody knows what is beyond the border: it has each label. */
-bool SegmentationRepair::Has(const VoxelIndex& voxel, LabelId id) const
+bool SegmentationRepair::IsInside(const VoxelIndex& voxel) const
 {
+  bool isInside = true;
   for (std::size_t a = 0; a < 3; ++a)
   {
-    if (voxel[a] < 0 || voxel[a] >= this->Grid.Dimensions[a])
-    {
-      return true;
-    }
+    isInside = isInside && voxel[a] >= 0 && voxel[a] < this->Grid.Dimensions[a];
   }
-  return this->Ids[Unsigned(this->PositionOf(voxel))] == id;
+  return isInside;
+}
+
+bool SegmentationRepair::Has(const VoxelIndex& voxel, LabelId id) const
+{
+  return !this->IsInside(voxel) || this->Ids[Unsigned(this->PositionOf(voxel))] == id;
 }
 
 /**
@@ -224,9 +227,9 @@ std::vector<RepairRow> SegmentationRepair::FillHoles(std::int64_t largest)
 }
 
 //------------------------------------------------------------------------------------------------
-/** The sets of these voxels that are connected through faces and have one label. */
+/** The sets of these voxels that are connected through faces and have one label, their own or, in background, that given. */
 std::vector<SegmentationRepair::Positions> SegmentationRepair::PiecesOf(
-  const Positions& voxels) const
+  const Positions& voxels, LabelId ofBackground) const
 {
   if (voxels.empty())
   {
@@ -235,7 +238,8 @@ std::vector<SegmentationRepair::Positions> SegmentationRepair::PiecesOf(
   std::vector<LabelId> ids(this->Ids.size(), 0);
   for (const std::int64_t voxel : voxels)
   {
-    ids[Unsigned(voxel)] = this->Ids[Unsigned(voxel)];
+    const LabelId id = this->Ids[Unsigned(voxel)];
+    ids[Unsigned(voxel)] = id == 0 ? ofBackground : id;
   }
   const LabelImage<3> image = this->ImageOf(ids);
   const Components<3> components(image, this->Threads);
@@ -259,18 +263,56 @@ std::vector<SegmentationRepair::Positions> SegmentationRepair::PiecesOf(
   return pieces;
 }
 
-/**
- * Pieces of what opening takes that hang on one connected part of the rest. A piece between two parts is a bridge, and one
- * without is a component.
- */
 std::vector<SegmentationRepair::Positions> SegmentationRepair::FindSpikes() const
 {
-  const Positions taken = this->FindVoxels(
-    [this](const VoxelIndex& voxel, LabelId id)
-    {
-      return !this->IsInBlock(voxel, id, 0b011) && !this->IsInBlock(voxel, id, 0b101) &&
-        !this->IsInBlock(voxel, id, 0b110);
-    });
+  return this->PiecesBeside(this->FindVoxels(
+                              [this](const VoxelIndex& voxel, LabelId id)
+                              {
+                                return !this->IsInBlock(voxel, id, 0b011) &&
+                                  !this->IsInBlock(voxel, id, 0b101) &&
+                                  !this->IsInBlock(voxel, id, 0b110);
+                              }),
+    false);
+}
+
+/** Necks: bridges of what opening by three voxels takes. */
+std::vector<SegmentationRepair::Positions> SegmentationRepair::FindNecks() const
+{
+  const auto isAnyOf = [](const VoxelIndex& voxel, const auto& test)
+  {
+    bool isAny = false;
+    VoxelBox{ Plus(voxel, { -1, -1, -1 }), Plus(voxel, { 1, 1, 1 }) }.ForEachVoxel(
+      [&](const VoxelIndex& other) { isAny = isAny || test(other); });
+    return isAny;
+  };
+  std::vector<bool> isMiddle(this->Ids.size(), false); // of a block of three voxels
+  for (const std::int64_t position :
+    this->FindVoxels([&](const VoxelIndex&voxel, LabelId id)
+      { return !isAnyOf(voxel, [&](const VoxelIndex& other) { return !this->Has(other, id); }); }))
+  {
+    isMiddle[Unsigned(position)] = true;
+  }
+  return this->PiecesBeside(this->FindVoxels(
+                              [&](const VoxelIndex& voxel, LabelId id)
+                              {
+                                return !isAnyOf(voxel,
+                                  [&](const VoxelIndex& other)
+                                  {
+                                    return this->IsInside(other) &&
+                                      isMiddle[Unsigned(this->PositionOf(other))] &&
+                                      this->Has(other, id);
+                                  });
+                              }),
+    true);
+}
+
+/**
+ * Pieces of what opening takes that hang on one connected part of the rest, or the bridges between several parts. A
+ * piece without is a component.
+ */
+std::vector<SegmentationRepair::Positions> SegmentationRepair::PiecesBeside(
+  const Positions& taken, bool bridges) const
+{
   std::vector<LabelId> rest = this->Ids;
   for (const std::int64_t voxel : taken)
   {
@@ -282,7 +324,7 @@ std::vector<SegmentationRepair::Positions> SegmentationRepair::FindSpikes() cons
   }
   const LabelImage<3> image = this->ImageOf(rest);
   const Components<3> parts(image, this->Threads);
-  std::vector<Positions> spikes;
+  std::vector<Positions> found;
   for (Positions& piece : this->PiecesOf(taken))
   {
     std::uint32_t part = Components<3>::None;
@@ -305,12 +347,12 @@ std::vector<SegmentationRepair::Positions> SegmentationRepair::FindSpikes() cons
           part = parts.At(index);
         });
     }
-    if (part != Components<3>::None && !isBridge)
+    if (part != Components<3>::None && isBridge == bridges)
     {
-      spikes.push_back(std::move(piece));
+      found.push_back(std::move(piece));
     }
   }
-  return spikes;
+  return found;
 }
 
 /** Of the faces to other labels, background among them; nothing if all of these are removed. */

@@ -87,6 +87,7 @@ private:
   std::int64_t PositionOf(const VoxelIndex& voxel) const;
   VoxelIndex IndexOf(std::int64_t position) const;
   bool IsAtBorder(const VoxelIndex& voxel) const;
+  bool IsInside(const VoxelIndex& voxel) const;
   bool Has(const VoxelIndex& voxel, LabelId id) const;
   bool IsInBlock(const VoxelIndex& voxel, LabelId id, unsigned axes) const;
   template <typename Visit>
@@ -99,9 +100,11 @@ private:
   /** Each with the label that has most of the faces around it. */
   std::vector<std::pair<Piece, LabelId>> FindCavities(std::int64_t largest) const;
   template <typename Test>
-  Positions FindVoxels(Test&& test) const;
-  std::vector<Positions> PiecesOf(const Positions& voxels) const;
+  Positions FindVoxels(Test&& test, bool inBackground = false) const;
+  std::vector<Positions> PiecesOf(const Positions& voxels, LabelId ofBackground = 0) const;
   std::vector<Positions> FindSpikes() const;
+  std::vector<Positions> FindNecks() const;
+  std::vector<Positions> PiecesBeside(const Positions& taken, bool bridges) const;
   std::optional<LabelId> MostFrequentAround(
     std::int64_t position, const std::vector<bool>& removed) const;
   Positions FindThickening(LabelId id, double length, const std::vector<bool>& isKept) const;
@@ -113,6 +116,7 @@ private:
     const std::string& what, std::int64_t label, const Positions& voxels, LabelId id);
   void AddComponents(std::vector<RepairRow>& rows) const;
   void AddContacts(std::vector<RepairRow>& rows) const;
+  void AddGaps(std::vector<RepairRow>& rows) const;
   void AddBorders(std::vector<RepairRow>& rows) const;
 
   GridGeometry<3> Grid;
@@ -172,9 +176,9 @@ void SegmentationRepair::ForEachNeighbour(std::int64_t position, Visit&& visit) 
   }
 }
 
-/** The voxels with a label, in order, for which test(index, id) is true. */
+/** The voxels with a label, or without, in order, for which test(index, id) is true. */
 template <typename Test>
-SegmentationRepair::Positions SegmentationRepair::FindVoxels(Test&& test) const
+SegmentationRepair::Positions SegmentationRepair::FindVoxels(Test&& test, bool inBackground) const
 {
   const VoxelIndex& n = this->Grid.Dimensions;
   std::vector<Positions> found(Unsigned(n[2]));
@@ -188,7 +192,7 @@ SegmentationRepair::Positions SegmentationRepair::FindVoxels(Test&& test) const
         {
           const std::int64_t position = this->PositionOf(voxel);
           const LabelId id = this->Ids[Unsigned(position)];
-          if (id != 0 && test(voxel, id))
+          if ((id == 0) == inBackground && test(voxel, id))
           {
             found[Unsigned(voxel[2])].push_back(position);
           }

@@ -24,9 +24,13 @@ namespace voxplex
 namespace
 {
 
-/** A search from a piece ends after this number of simplices, and of ways that are not allowed. */
+/**
+ * A search from a piece ends after this number of simplices, and of ways that are not allowed. Pieces that
+ * may have gaps are worth more.
+ */
 constexpr std::size_t MostLookedAt = 20000;
 constexpr unsigned MostWays = 32;
+constexpr unsigned MostWaysOfSmall = 4;
 
 /** So many simplices of a piece decide which component it is of. */
 constexpr std::size_t MostVotes = 256;
@@ -105,14 +109,14 @@ private:
     }
     const bool mayBeGap = isWanted && volume >= this->SmallestGap;
     bool isDone = of.empty();
-    unsigned ways = 0;
+    unsigned ways = mayBeGap ? MostWays : MostWaysOfSmall; // that are left
     if (isWanted && !isDone)
     {
       this->ForEachWay(p, of, true,
         [&](Simplices way)
         {
           isDone = this->Give({ std::move(way), piece.Label }, false);
-          return isDone || ++ways == MostWays;
+          return isDone || --ways == 0;
         });
     }
     const bool isSmall = of.size() <= MostGivenAway || volume < this->Of.Image.Grid().VoxelVolume();

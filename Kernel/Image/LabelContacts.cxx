@@ -105,51 +105,61 @@ bool LabelContacts<D>::TouchNear(
   return false;
 }
 
-/** Whether two labels touch in a box, with all its voxels. */
+/** Whether two labels touch in a box, with all its voxels, but at most 64 along the first axis. */
 template <int D>
-bool LabelContacts<D>::TouchInBox(const Index& low, const Index& high, LabelId a, LabelId b) const
+bool LabelContacts<D>::TouchInBox(Index low, Index high, LabelId a, LabelId b) const
 {
-  Index extent;
-  for (std::size_t k = 0; k < D; ++k)
-  {
-    extent[k] = high[k] - low[k] + 1;
-  }
-  // 1: a, 2: b, in a voxel and in those after it along the axes that are done
-  boost::container::small_vector<std::uint8_t, 512> has;
-  has.reserve(CountCells(extent));
-  std::uint8_t any = 0;
-  Index last = high; // row by row
-  last[0] = low[0];
-  ForEachIndex(low, last,
+  constexpr std::int64_t Bits = 64;
+  const std::int64_t width = std::min(high[0] + 1 - low[0], Bits);
+  low[0] = (low[0] + high[0] + 1 - width) / 2;
+  high[0] = low[0];
+  using Rows = boost::container::small_vector<std::uint64_t, 256>; // a bit for each voxel
+  Rows ofA;
+  Rows ofB;
+  std::uint64_t anyA = 0;
+  std::uint64_t anyB = 0;
+  ForEachIndex(low, high,
     [&](const Index& first)
     {
       const std::span<const LabelId> row = this->Image.RowAt(first);
-      for (std::int64_t x = low[0]; x <= high[0]; ++x)
+      std::uint64_t inA = 0;
+      std::uint64_t inB = 0;
+      for (std::int64_t i = 0; i < width; ++i)
       {
+        const std::int64_t x = first[0] + i;
         const LabelId label =
           x >= 0 && x < std::ssize(row) ? row[static_cast<std::size_t>(x)] : LabelId{ 0 };
-        has.push_back(label == a ? 1 : label == b ? 2 : 0);
-        any |= has.back();
+        inA |= std::uint64_t{ label == a } << i;
+        inB |= std::uint64_t{ label == b } << i;
       }
+      ofA.push_back(inA);
+      ofB.push_back(inB);
+      anyA |= inA;
+      anyB |= inB;
     });
-  if (any != 3)
+  if (anyA == 0 || anyB == 0)
   {
     return false;
   }
   std::size_t stride = 1;
-  for (std::size_t k = 0; k < D; ++k)
+  for (std::size_t k = 1; k < D;
+       ++k) // the voxels of b are spread to the rows beside along each axis
   {
-    const std::size_t line = stride * static_cast<std::size_t>(extent[k]);
-    for (std::size_t begin = 0; begin < has.size(); begin += line)
+    const std::size_t line = stride * static_cast<std::size_t>(high[k] + 1 - low[k]);
+    const Rows before = ofB;
+    for (std::size_t i = 0; i < before.size(); ++i)
     {
-      for (std::size_t i = begin; i + stride < begin + line; ++i) // the last has none after it
-      {
-        has[i] |= has[i + stride];
-      }
+      ofB[i] |= i % line >= stride ? before[i - stride] : 0;
+      ofB[i] |= i % line + stride < line ? before[i + stride] : 0;
     }
     stride = line;
   }
-  return std::find(has.begin(), has.end(), 3) != has.end();
+  bool touch = false;
+  for (std::size_t i = 0; i < ofA.size(); ++i)
+  {
+    touch = touch || ((ofA[i] | ofA[i] << 1 | ofA[i] >> 1) & ofB[i]) != 0;
+  }
+  return touch;
 }
 
 //------------------------------------------------------------------------------------------------

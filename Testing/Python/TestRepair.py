@@ -80,7 +80,8 @@ class Program(ProgramTestCase):
                                 "--output", "mesh.vtu", "--stats", "mesh.json", "--quality")
         self.assertIn("\nfill-holes: label 3 (Ball): 2 voxels, at (14-15, 14, 14)\n", told)
         figures = json.loads((self.folder / "mesh.json").read_text())
-        self.assertEqual([row["what"] for row in figures["repair"]], ["fill-holes", "remove-spikes", "min-thickness", "shell"])
+        self.assertEqual([row["what"] for row in figures["repair"]],
+                         ["fill-holes", "remove-spikes", "min-thickness", "shell", "necks", "gaps", "gaps"])
         self.assertEqual(figures["repair"][0], {"what": "fill-holes", "label": 3, "voxels": 2, "places": 1, "largest": 2,
                                                 "first": [14, 14, 14], "last": [15, 14, 14]})
         self.assertEqual(figures["repair"][3]["new_label"], 8)
@@ -93,7 +94,7 @@ class Program(ProgramTestCase):
         again = json.loads((self.folder / "again.json").read_text())
         self.assertEqual(again["image"]["lost_labels"], [])
         self.assertLess(max(abs(row["volume_error"]) for row in again["labels"].values()), 0.03)
-        self.assertEqual(again["repair"], figures["repair"])
+        self.assertEqual(again["repair"], figures["repair"][:4])
         self.assertIn("\nfill-holes: label 3", self.run_program("--fill-holes", 2, "--mesh", "mesh.vtu", "--output", "mesh.msh"))
 
     def test_series(self):

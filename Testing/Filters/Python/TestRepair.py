@@ -368,6 +368,21 @@ class Check(Repair):
     def test_nothing(self):
         self.assertEqual(self.repaired(ball(), CheckImage=True)[1], [])
 
+    def test_necks_and_gaps(self):
+        """Two cubes on a neck of 2 x 2 voxels, and one that is a voxel away."""
+        labels = numpy.zeros((24, 24, 40), dtype=numpy.uint8)
+        labels[8:14, 8:14, 4:10] = labels[8:14, 8:14, 14:20] = 1
+        labels[10:12, 10:12, 10:14] = 1
+        labels[8:14, 8:14, 21:27] = 2
+        found = [(row["what"], row["label"], row["voxels"], row["first"], row["last"])
+                 for row in self.repaired(labels, CheckImage=True)[1]]
+        self.assertEqual(found, [("necks", 1, 16, [10, 10, 10], [13, 11, 11]), ("gaps", 1, 36, [20, 8, 8], [20, 13, 13]),
+                                 ("gaps", 2, 36, [20, 8, 8], [20, 13, 13])])
+        labels[9:13, 9:13, 10:14] = 1
+        labels[:, :, 20] = 0
+        labels[8:14, 8:14, 21] = 0
+        self.assertEqual(self.repaired(labels, CheckImage=True)[1], [])
+
     def test_many_labels(self):
         labels = numpy.zeros((3, 3, 25), numpy.uint8)
         labels[0, 0] = range(1, 26)
