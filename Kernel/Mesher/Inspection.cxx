@@ -24,7 +24,7 @@ constexpr unsigned MostGapRounds = 64; ///< if components are to be exact
 
 /**
  * Unless components are to be exact, gaps are sampled beside pieces of at least this number of
- * voxels only, and of a cube of delta. With 8 voxels, meshes of brains get 2 to 5 % more elements, for
+ * voxels only, and of a cube of half of delta. With 8 voxels, meshes of brains get 2 to 5 % more elements, for
  * pieces that are seldom missed.
  */
 constexpr double SmallestUsualGap = 27.0;
@@ -92,7 +92,7 @@ Inspection<D>::Inspection(
   , SmallestGap(run.Options.Components.Exact
         ? 0.0
         : std::max(SmallestUsualGap * run.Prepared.Image.Grid().VoxelVolume(),
-            std::pow(run.Statistics.Delta, D)))
+            std::pow(0.5 * run.Statistics.Delta, D)))
 {
   const Stopwatch time;
   const PreparedImage<D>& prepared = run.Prepared;
