@@ -105,5 +105,5 @@ TEST(InterfaceCheck, GoesOnWhereItHasTo)
     }
   }
   EXPECT_GT(afterPinches, 1);
-  EXPECT_GT(afterRepair, 1);
+  EXPECT_GT(afterRepair, 0);
 }
