@@ -42,8 +42,8 @@ ManifoldRepairOptions<D> MakeRepairOptions(
   options.Contacts = D == 3 || run.Options.Components.Exact ? &contacts : nullptr;
   if (const std::optional<Components<D>>& all = run.Prepared.AllComponents; D == 3 && all)
   {
-    options.Kept.emplace(
-      *all, run.Prepared.Image, all->FindWanted(run.Options.Components.Smallest));
+    options.Kept.emplace(KeptComponents<D>{
+      *all, run.Prepared.Image, all->FindWanted(run.Options.Components.Smallest) });
   }
   options.Keeps = KeepsItsLabel(run, stage.Mesh());
   return options;

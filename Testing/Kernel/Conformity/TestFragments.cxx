@@ -54,7 +54,7 @@ struct LabelledMesh
     const Components<3> components(this->Image);
     ManifoldRepairOptions<3> options;
     options.Surfaces = &this->Surfaces;
-    options.Kept.emplace(components, this->Image, components.FindWanted(8));
+    options.Kept.emplace(KeptComponents<3>{ components, this->Image, components.FindWanted(8) });
     options.Keeps = [mayRelabel](SimplexId) { return !mayRelabel; };
     return JoinPieces<3>(this->Mesh(), this->Labels, options, smallestGap, stop);
   }
