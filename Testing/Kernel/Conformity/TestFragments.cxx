@@ -49,12 +49,14 @@ struct LabelledMesh
   const Triangulation<3>& Mesh() const { return this->Context->Mesh; }
   const auto& NeighboursOf(SimplexId s) const { return this->Mesh().GetSimplex(s).N; }
 
-  JoinedPieces<3> Join(double smallestGap, const std::stop_token& stop = {}, bool mayRelabel = true)
+  JoinedPieces<3> Join(
+    double smallestGap, const std::stop_token& stop = {}, bool mayRelabel = true, bool wants = true)
   {
     const Components<3> components(this->Image);
     ManifoldRepairOptions<3> options;
     options.Surfaces = &this->Surfaces;
-    options.Kept.emplace(KeptComponents<3>{ components, this->Image, components.FindWanted(8) });
+    options.Kept.emplace(KeptComponents<3>{ components, this->Image,
+      wants ? components.FindWanted(8) : std::vector<bool>(components.All().size()) });
     options.Keeps = [mayRelabel](SimplexId) { return !mayRelabel; };
     return JoinPieces<3>(this->Mesh(), this->Labels, options, smallestGap, stop);
   }
@@ -277,6 +279,21 @@ TEST(PieceJoints, JoinOrGiveAwayWhatIsLoose)
   }
   EXPECT_GT(found, 10u);
   EXPECT_LE(4 * left, loose);
+}
+
+// Pieces of components that nobody wants are not joined.
+TEST(PieceJoints, GiveAwayWhatIsSmall)
+{
+  std::size_t loose = 0;
+  std::size_t left = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed)
+  {
+    LabelledMesh blobs(Blobs(seed), 5.0);
+    loose += blobs.LoosePieces();
+    EXPECT_TRUE(blobs.Join(0.0, {}, true, false).Gaps.empty());
+    left += blobs.LoosePieces();
+  }
+  EXPECT_LT(2 * left, loose);
 }
 
 TEST(PieceJoints, TellGapsOfLargePieces)

@@ -82,8 +82,7 @@ TEST(InterfaceCheck, GoesOnWhereItHasTo)
       };
       const bool wasFar = HasFarFaces(image, extract(labeller.Take().Labels), delta);
       const ManifoldLabels<3> made = checks::LabelsOf(labeller, figures);
-      const bool hasPinches = std::any_of(made.NonManifold.begin(), made.NonManifold.end(),
-        [](const InterfaceEdge& edge) { return !edge.IsJunction; });
+      const bool hasPinches = !made.NonManifold.empty();
       const bool isFar = HasFarFaces(image, extract(made.Labels), delta);
       bool isNeeded = false;
       for (const auto inspect : { &InterfaceCheck<3>::InspectSampled,

@@ -107,17 +107,15 @@ TEST(Topology, LayersOfAVoxelAreKept)
     {
       for (const bool exact : { false, true })
       {
-        if (!exact && delta > 2.0)
-        {
-          continue; // it may be right
-        }
         const Result result = Mesh(image, delta, exact);
         const std::string of =
           std::string(name) + ", delta " + std::to_string(delta) + (exact ? ", exact" : "");
         EXPECT_TRUE(result.Statistics.Lost.empty()) << of;
         EXPECT_TRUE(result.Statistics.Broken.empty()) << of;
         EXPECT_TRUE(result.Statistics.United.empty()) << of;
-        EXPECT_TRUE(result.Statistics.Contacts.empty()) << of;
+        // This wall is a third of delta thin: it may leak, with a warning.
+        const bool mayLeak = std::string(name) == "shell" && delta == 3.0 && !exact;
+        EXPECT_TRUE(mayLeak || result.Statistics.Contacts.empty()) << of;
       }
     }
   }

@@ -357,6 +357,7 @@ TEST(BorderFaces, GetNoDentsInRepair)
     options.Interfaces.Manifold = true;
     MeshingStatistics statistics;
     const SimplexMesh<3> mesh = MeshOf(image, options, &statistics);
+    EXPECT_EQ(statistics.Interfaces.NonManifoldLeft, 0u);
     EXPECT_GT(statistics.Interfaces.NonManifoldRepaired, 0u);
     EXPECT_LT(lostArea(before, mesh), 1e-9) << delta;
   }
