@@ -275,37 +275,6 @@ std::vector<SegmentationRepair::Positions> SegmentationRepair::FindSpikes() cons
     false);
 }
 
-/** Necks: bridges of what opening by three voxels takes. */
-std::vector<SegmentationRepair::Positions> SegmentationRepair::FindNecks() const
-{
-  const auto isAnyOf = [](const VoxelIndex& voxel, const auto& test)
-  {
-    bool isAny = false;
-    VoxelBox{ Plus(voxel, { -1, -1, -1 }), Plus(voxel, { 1, 1, 1 }) }.ForEachVoxel(
-      [&](const VoxelIndex& other) { isAny = isAny || test(other); });
-    return isAny;
-  };
-  std::vector<bool> isMiddle(this->Ids.size(), false); // of a block of three voxels
-  for (const std::int64_t position :
-    this->FindVoxels([&](const VoxelIndex&voxel, LabelId id)
-      { return !isAnyOf(voxel, [&](const VoxelIndex& other) { return !this->Has(other, id); }); }))
-  {
-    isMiddle[Unsigned(position)] = true;
-  }
-  return this->PiecesBeside(this->FindVoxels(
-                              [&](const VoxelIndex& voxel, LabelId id)
-                              {
-                                return !isAnyOf(voxel,
-                                  [&](const VoxelIndex& other)
-                                  {
-                                    return this->IsInside(other) &&
-                                      isMiddle[Unsigned(this->PositionOf(other))] &&
-                                      this->Has(other, id);
-                                  });
-                              }),
-    true);
-}
-
 /**
  * Pieces of what opening takes that hang on one connected part of the rest, or the bridges between several parts. A
  * piece without is a component.
