@@ -210,8 +210,9 @@ bool LabelContacts<D>::AreConnected(const Point<D>& p, const Point<D>& q, LabelI
   Index extent;
   for (std::size_t k = 0; k < D; ++k)
   {
-    low[k] = std::min(from[k], to[k]) - Detour;
-    extent[k] = std::max(from[k], to[k]) + Detour + 1 - low[k];
+    const auto by = static_cast<std::int64_t>(Detour * this->Diagonal * this->VoxelsPerLength[k]);
+    low[k] = std::min(from[k], to[k]) - by;
+    extent[k] = std::max(from[k], to[k]) + by + 1 - low[k];
     from[k] -= low[k];
     to[k] -= low[k];
   }

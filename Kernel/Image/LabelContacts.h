@@ -74,8 +74,8 @@ public:
   Runs LabelsAlong(const Point<D>& from, const Point<D>& to) const;
 
 private:
-  /** How far beyond both places a connection may run, in voxels. */
-  static constexpr std::int64_t Detour = 3;
+  /** How far beyond both places a connection may run, in diagonals of a voxel. */
+  static constexpr double Detour = 3.0;
 
   bool TouchInBox(Index low, Index high, LabelId a, LabelId b) const;
   bool FindVoxelOf(LabelId label, Index& voxel) const;
