@@ -38,6 +38,14 @@ Facet<D> FacetOf(const std::array<VertexId, static_cast<std::size_t>(D + 1)>& v,
   return facet;
 }
 
+/** How far a change may go. */
+enum class Leeway
+{
+  Usual,
+  WholePiece, ///< leaves nothing of the label beside it: there is more of the component elsewhere
+  OffInterfaces, ///< moves vertices onto interfaces, and has angles as at junctions
+};
+
 /** @brief The rules for changes of labels, whatever they are made for. See RepairManifold(). */
 template <int D>
 class ChangeRules
@@ -64,11 +72,11 @@ public:
   /**
    * Whether a change keeps the bounds of shapes and sizes, leaves some of the label beside it, and does
    * not part from the topology of the image.
-   * @param isPart whether there is more of the label and of the component elsewhere
    */
-  bool IsAllowed(const Change& change, bool isPart = false) const
+  bool IsAllowed(const Change& change, Leeway leeway = Leeway::Usual) const
   {
-    bool leavesSome = isPart;
+    const bool mayLeave = leeway == Leeway::OffInterfaces;
+    bool leavesSome = leeway == Leeway::WholePiece;
     for (const SimplexId t : change.Cells)
     {
       if (this->IsTooLarge(t, change.Label) || this->IsPoor(t, change.Label) ||
@@ -79,7 +87,7 @@ public:
       const LabelId own = this->Labels[t];
       for (const VertexId v : this->Near.VerticesOf(t))
       {
-        if (!this->Near.IsOnInterface(v))
+        if (!mayLeave && !this->Near.IsOnInterface(v))
         {
           return false;
         }
@@ -98,7 +106,7 @@ public:
         }
         const bool isNew = this->Near.LabelBeside(t, i) == own &&
           !change.Touches(this->Near.Beside(t, i)); // the facet becomes an interface facet
-        if (isNew && !this->HasGoodAngles(t, i, change))
+        if (isNew && !this->HasGoodAngles(t, i, change, mayLeave))
         {
           return false;
         }
@@ -333,11 +341,12 @@ private:
     return sharpness;
   }
 
-  bool HasGoodAngles(SimplexId t, unsigned i, const Change& change) const
+  bool HasGoodAngles(SimplexId t, unsigned i, const Change& change, bool asAtJunctions) const
   {
     const Sharpness sharpness = this->SharpnessOf(t, i);
     return sharpness == Sharpness::Anywhere ||
-      (sharpness == Sharpness::AtJunctionsOnly && this->HasJunction(t, i, change));
+      (sharpness == Sharpness::AtJunctionsOnly &&
+        (asAtJunctions || this->HasJunction(t, i, change)));
   }
 
   /** Whether a vertex of a facet is at a junction after a change. */

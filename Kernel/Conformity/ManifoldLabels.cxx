@@ -45,7 +45,7 @@ ManifoldLabels<D> ManifoldLabeller<D>::Take()
 
 template <int D>
 ManifoldLabels<D> ManifoldLabeller<D>::Repair(
-  ManifoldLabels<D> made, double smallestGap, InterfaceStatistics& statistics)
+  ManifoldLabels<D> made, GapOptions gaps, InterfaceStatistics& statistics)
 {
   std::vector<SimplexId> changed = std::exchange(made.New, {});
   const bool areFew = this->AreFew(changed);
@@ -62,7 +62,7 @@ ManifoldLabels<D> ManifoldLabeller<D>::Repair(
   if (this->Options.Kept)
   {
     JoinedPieces<D> joined =
-      JoinPieces<D>(this->Source, made.Labels, this->Options, smallestGap, this->Stop);
+      JoinPieces<D>(this->Source, made.Labels, this->Options, gaps, this->Stop);
     changed.insert(changed.end(), joined.Relabelled.begin(), joined.Relabelled.end());
     made.Gaps = std::move(joined.Gaps);
   }

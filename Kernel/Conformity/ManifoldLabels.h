@@ -70,12 +70,12 @@ public:
    * Repairs labels, and lists what is left. Takes time linear in the number of simplices, if few are
    * repaired.
    * @param taken the result of Take()
-   * @param smallestGap see JoinPieces()
+   * @param gaps see JoinPieces()
    * @param statistics counts the ridges that were repaired, and receives the number of those left
    * @throws as Take(). Then the next call looks at the same simplices again.
    */
   ManifoldLabels<D> Repair(
-    ManifoldLabels<D> taken, double smallestGap, InterfaceStatistics& statistics);
+    ManifoldLabels<D> taken, GapOptions gaps, InterfaceStatistics& statistics);
 
 private:
   using Simplices = std::vector<SimplexId>;

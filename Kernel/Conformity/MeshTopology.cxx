@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -77,8 +76,8 @@ void ComparePieces(const SimplexMesh<D>& mesh, const Components<D>& components,
   const LabelImage<D>& image, const std::vector<bool>& wanted, ComponentStatistics& statistics,
   const std::stop_token& stop)
 {
-  const ComponentPieces<D> pieces(MeshElements<D>(mesh, image), FindPieces<D>(mesh, stop),
-    components, image, std::numeric_limits<std::size_t>::max(), stop);
+  const ComponentPieces<D> pieces(
+    MeshElements<D>(mesh, image), FindPieces<D>(mesh, stop), components, image, stop);
   const double voxel = image.Grid().VoxelVolume();
   std::map<std::uint32_t, std::vector<double>> volumes; // of the pieces of each component
   statistics.United.clear();
@@ -88,35 +87,38 @@ void ComparePieces(const SimplexMesh<D>& mesh, const Components<D>& components,
     {
       volumes[piece.Component].push_back(piece.Volume);
     }
+    std::vector<std::uint32_t> all; // components that the piece has a share of
     std::vector<std::uint32_t> held;
     for (const auto& [component, volume] : piece.Shares)
     {
       const auto voxels = static_cast<double>(components.All()[component].Voxels);
       if (wanted[component] && volume >= 0.5 * voxel * std::min(voxels, VoxelsThatHold))
       {
-        held.push_back(component);
+        held.push_back(static_cast<std::uint32_t>(all.size()));
       }
+      all.push_back(component);
     }
     if (held.size() < 2)
     {
       continue;
     }
-    DisjointSets sets = JoinTouching(held, components);
+    DisjointSets sets = JoinTouching(all, components);
     std::set<std::uint32_t> names;
     std::uint32_t smaller = held.front(); // the smallest one that is not of the first set
-    for (std::uint32_t k = 0; k < held.size(); ++k)
+    for (const std::uint32_t k : held)
     {
       names.insert(sets.Find(k));
-      if (sets.Find(k) != 0 &&
+      if (sets.Find(k) != sets.Find(held.front()) &&
         (smaller == held.front() ||
-          components.All()[held[k]].Voxels < components.All()[smaller].Voxels))
+          components.All()[all[k]].Voxels < components.All()[all[smaller]].Voxels))
       {
-        smaller = held[k];
+        smaller = k;
       }
     }
     if (names.size() > 1)
     {
-      statistics.United.push_back({ MakeReport(components.All()[smaller], image), names.size() });
+      statistics.United.push_back(
+        { MakeReport(components.All()[all[smaller]], image), names.size() });
     }
   }
   std::stable_sort(statistics.United.begin(), statistics.United.end(),

@@ -31,9 +31,7 @@ namespace
 constexpr std::size_t MostLookedAt = 20000;
 constexpr unsigned MostWays = 32;
 constexpr unsigned MostWaysOfSmall = 4;
-
-/** So many simplices of a piece decide which component it is of. */
-constexpr std::size_t MostVotes = 256;
+constexpr unsigned MostWaysAtLast = 1000;
 
 /** Pieces of more simplices keep their label, unless they are smaller than a voxel. */
 constexpr std::size_t MostGivenAway = 5;
@@ -47,17 +45,17 @@ class PieceJoiner
 {
 public:
   PieceJoiner(const Triangulation<D>& triangulation, std::span<LabelId> labels,
-    const ManifoldRepairOptions<D>& options, double smallestGap, const std::stop_token& stop)
+    const ManifoldRepairOptions<D>& options, GapOptions gaps, const std::stop_token& stop)
     : Mesh(triangulation)
     , Labels(labels)
     , Of(*options.Kept)
-    , SmallestGap(smallestGap)
+    , Gaps(gaps)
     , Before(labels.begin(), labels.end())
     , Near(triangulation, labels, Before)
     , Rules(this->Near, labels, options)
     , Pieces(LabelledTriangulation<D>(triangulation, labels),
         FindPieces<D>(LabelledTriangulation<D>(triangulation, labels), stop), Of.All, Of.Image,
-        MostVotes, stop)
+        stop)
     , Joined(this->Pieces.All().size())
     , Stop(stop)
   {
@@ -107,24 +105,19 @@ private:
     {
       volume += std::abs(SignedVolume<D>(this->Mesh.Points(this->Mesh.GetSimplex(s).V).data()));
     }
-    const bool mayBeGap = isWanted && volume >= this->SmallestGap;
+    const bool mayBeGap = isWanted && volume >= this->Gaps.Smallest;
     bool isDone = of.empty();
-    unsigned ways = mayBeGap ? MostWays : MostWaysOfSmall; // that are left
     if (isWanted && !isDone)
     {
-      this->ForEachWay(p, of, true,
-        [&](Simplices way)
-        {
-          isDone = this->Give({ std::move(way), piece.Label }, false);
-          return isDone || --ways == 0;
-        });
+      isDone = this->Connect(p, of, repair::Leeway::Usual, mayBeGap ? MostWays : MostWaysOfSmall);
     }
-    const bool isSmall = of.size() <= MostGivenAway || volume < this->Of.Image.Grid().VoxelVolume();
-    if (!isDone && !mayBeGap && isSmall)
+    if (mayBeGap && !isDone && this->Gaps.AreLast)
     {
-      this->GiveAway(of);
+      isDone = this->Connect(p, of, repair::Leeway::OffInterfaces, MostWaysAtLast);
     }
-    if (isDone || !mayBeGap)
+    const bool isSmall =
+      volume < this->Of.Image.Grid().VoxelVolume() || (!mayBeGap && of.size() <= MostGivenAway);
+    if (isDone || (isSmall && this->GiveAway(of)) || !mayBeGap)
     {
       return;
     }
@@ -138,8 +131,21 @@ private:
     this->AddGap(piece.Component, gap);
   }
 
-  /** Gives a piece the label beside it with the largest common area that is allowed. */
-  void GiveAway(const Simplices& of)
+  /** Connects a piece along the first way that is allowed. @param most ways that are tried */
+  bool Connect(std::uint32_t p, const Simplices& of, repair::Leeway leeway, unsigned most)
+  {
+    bool isDone = false;
+    this->ForEachWay(p, of, leeway == repair::Leeway::Usual,
+      [&](Simplices way)
+      {
+        isDone = this->Give({ std::move(way), this->Pieces.All()[p].Label }, leeway);
+        return isDone || --most == 0;
+      });
+    return isDone;
+  }
+
+  /** Gives a piece the label beside it with the largest common area that is allowed, if there is one. */
+  bool GiveAway(const Simplices& of)
   {
     std::map<LabelId, double> areas;
     for (const SimplexId s : of)
@@ -161,17 +167,18 @@ private:
     }
     for (const auto& [area, label] : sorted)
     {
-      if (this->Give({ of, label }, true))
+      if (this->Give({ of, label }, repair::Leeway::WholePiece))
       {
-        return;
+        return true;
       }
     }
+    return false;
   }
 
-  /** Makes a change if it is allowed. @param isPart see ChangeRules::IsAllowed() */
-  bool Give(const repair::Change& change, bool isPart)
+  /** Makes a change if it is allowed. */
+  bool Give(const repair::Change& change, repair::Leeway leeway)
   {
-    if (this->Rules.Dents(change) || !this->Rules.IsAllowed(change, isPart))
+    if (this->Rules.Dents(change) || !this->Rules.IsAllowed(change, leeway))
     {
       return false;
     }
@@ -299,7 +306,7 @@ private:
   const Triangulation<D>& Mesh;
   const std::span<LabelId> Labels;
   const KeptComponents<D>& Of;
-  const double SmallestGap;
+  const GapOptions Gaps;
   const SimplexLabels Before;
   const repair::Neighbourhood<D> Near;
   const repair::ChangeRules<D> Rules;
@@ -313,14 +320,14 @@ private:
 
 template <int D>
 JoinedPieces<D> JoinPieces(const Triangulation<D>& triangulation, std::span<LabelId> labels,
-  const ManifoldRepairOptions<D>& options, double smallestGap, const std::stop_token& stop)
+  const ManifoldRepairOptions<D>& options, GapOptions gaps, const std::stop_token& stop)
 {
-  return PieceJoiner<D>(triangulation, labels, options, smallestGap, stop).Join();
+  return PieceJoiner<D>(triangulation, labels, options, gaps, stop).Join();
 }
 
 template JoinedPieces<3> JoinPieces<3>(const Triangulation<3>&, std::span<LabelId>,
-  const ManifoldRepairOptions<3>&, double, const std::stop_token&);
+  const ManifoldRepairOptions<3>&, GapOptions, const std::stop_token&);
 template JoinedPieces<4> JoinPieces<4>(const Triangulation<4>&, std::span<LabelId>,
-  const ManifoldRepairOptions<4>&, double, const std::stop_token&);
+  const ManifoldRepairOptions<4>&, GapOptions, const std::stop_token&);
 
 } // namespace voxplex

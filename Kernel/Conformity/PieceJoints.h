@@ -26,6 +26,13 @@ struct PieceGap
   std::uint32_t Component;
 };
 
+/** Which gaps JoinPieces() leaves to finer sampling. */
+struct GapOptions
+{
+  double Smallest = 0.0; ///< smaller pieces, by volume, have no gaps
+  bool AreLast = false;  ///< nothing is sampled any more
+};
+
 /** The result of JoinPieces(). */
 template <int D>
 struct JoinedPieces
@@ -45,9 +52,11 @@ struct JoinedPieces
  * piece, through the fewest simplices that the component passes: those with the centroid of the simplex, of
  * a facet or of an edge in one of its voxels. If ChangeRules allow it, these simplices get the label of the
  * component. Some of the next best ways are tried, too. Where none is allowed,
- * - a large piece has a gap on the first one, which needs finer sampling;
- * - a small one, of at most five simplices or less than a voxel, gets the label beside it with the largest
- *   common area that the rules allow.
+ * - a large piece has a gap on the first one, which needs finer sampling. If nothing is sampled any more,
+ *   ways may also lead through simplices with vertices off the interfaces, with facets as at junctions: where
+ *   a part of one voxel turns, the label field does not connect it, however finely it is sampled;
+ * - one of less than a voxel, or of at most five simplices if it has no gap, gets the label beside it with the
+ *   largest common area that the rules allow.
  *
  * The thesis keeps all pieces.
  *
@@ -57,12 +66,11 @@ struct JoinedPieces
  * @param labels by simplex id; some are changed
  * @param options of the repair that comes next, with the components to keep. Pieces of others are given
  *   away only.
- * @param smallestGap smaller pieces, by volume, have no gaps
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>
 JoinedPieces<D> JoinPieces(const Triangulation<D>& triangulation, std::span<LabelId> labels,
-  const ManifoldRepairOptions<D>& options, double smallestGap, const std::stop_token& stop);
+  const ManifoldRepairOptions<D>& options, GapOptions gaps, const std::stop_token& stop);
 
 } // namespace voxplex
 

@@ -89,10 +89,11 @@ Inspection<D>::Inspection(
   , GapRounds(Dimension<D>::MayRefine(run) && run.Options.Interfaces.Rounds > 0
         ? (run.Options.Components.Exact ? MostGapRounds : UsualGapRounds)
         : 0)
-  , SmallestGap(run.Options.Components.Exact
-        ? 0.0
-        : std::max(SmallestUsualGap * run.Prepared.Image.Grid().VoxelVolume(),
-            std::pow(0.5 * run.Statistics.Delta, D)))
+  , Gaps{ run.Options.Components.Exact
+      ? 0.0
+      : std::max(SmallestUsualGap * run.Prepared.Image.Grid().VoxelVolume(),
+          std::pow(0.5 * run.Statistics.Delta, D)),
+    this->GapRounds == 0 }
 {
   const Stopwatch time;
   const PreparedImage<D>& prepared = run.Prepared;
@@ -124,8 +125,8 @@ bool Inspection<D>::Inspect()
     const bool isNeeded = this->Interfaces.InspectSampled(this->Made);
     if (!isNeeded && this->Run.Options.Interfaces.Manifold)
     {
-      this->Made = this->Labeller.Repair(
-        std::move(this->Made), this->SmallestGap, this->Run.Statistics.Interfaces);
+      this->Made =
+        this->Labeller.Repair(std::move(this->Made), this->Gaps, this->Run.Statistics.Interfaces);
     }
     times.Interfaces += time.Seconds();
     if (isNeeded)
@@ -159,11 +160,11 @@ bool Inspection<D>::Inspect()
   return isNeeded;
 }
 
-/** Requests finer sampling where components have gaps. */
+/** Requests finer sampling where components have gaps; if that ends, another attempt to join the pieces. */
 template <int D>
 bool Inspection<D>::InspectGaps()
 {
-  if (this->Made.Gaps.empty() || this->GapRounds == 0)
+  if (this->Made.Gaps.empty() || this->Gaps.AreLast)
   {
     return false;
   }
@@ -189,11 +190,8 @@ bool Inspection<D>::InspectGaps()
   --this->GapRounds;
   statistics.Rounds += points > 0 ? 1 : 0;
   statistics.Seeds += points;
-  // What finer sampling cannot connect, and is smaller than a voxel, is given away then.
-  const double voxel = this->Run.Prepared.Image.Grid().VoxelVolume();
-  const bool givesUp = points == 0 && this->SmallestGap < voxel;
-  this->SmallestGap = givesUp ? voxel : this->SmallestGap;
-  return points > 0 || givesUp;
+  this->Gaps.AreLast = points == 0 || this->GapRounds == 0;
+  return true;
 }
 
 /** Lets a finder look. */

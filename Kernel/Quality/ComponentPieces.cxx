@@ -117,8 +117,7 @@ DisjointSets FindPieces(const SimplexMesh<D>& mesh, const std::stop_token& stop)
 template <int D>
 template <typename Elements>
 ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets pieces,
-  const Components<D>& components, const LabelImage<D>& image, std::size_t most,
-  const std::stop_token& stop)
+  const Components<D>& components, const LabelImage<D>& image, const std::stop_token& stop)
   : Numbers(elements.Size(), None)
 {
   typename Elements::LabelReader labelOf(elements);
@@ -168,7 +167,8 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets piece
       continue;
     }
     Piece& piece = this->List[this->Numbers[s]];
-    if (++piece.Size > most || parts[piece.Label] <= OneOfEach)
+    ++piece.Size;
+    if (parts[piece.Label] <= OneOfEach)
     {
       continue;
     }
@@ -183,7 +183,12 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets piece
         {
           return;
         }
-        held.push_back({ { this->Numbers[s], c }, volume });
+        const std::array of{ this->Numbers[s], c };
+        if (held.empty() || held.back().Of != of) // elements near each other have like numbers
+        {
+          held.push_back({ of, 0.0 });
+        }
+        held.back().Volume += volume;
       });
   }
   ThrowIfStopped(stop);
@@ -244,12 +249,12 @@ template DisjointSets FindPieces<4>(const SimplexMesh<4>&, const std::stop_token
 template class ComponentPieces<3>;
 template class ComponentPieces<4>;
 template ComponentPieces<3>::ComponentPieces(const LabelledTriangulation<3>&, DisjointSets,
-  const Components<3>&, const LabelImage<3>&, std::size_t, const std::stop_token&);
+  const Components<3>&, const LabelImage<3>&, const std::stop_token&);
 template ComponentPieces<4>::ComponentPieces(const LabelledTriangulation<4>&, DisjointSets,
-  const Components<4>&, const LabelImage<4>&, std::size_t, const std::stop_token&);
+  const Components<4>&, const LabelImage<4>&, const std::stop_token&);
 template ComponentPieces<3>::ComponentPieces(const MeshElements<3>&, DisjointSets,
-  const Components<3>&, const LabelImage<3>&, std::size_t, const std::stop_token&);
+  const Components<3>&, const LabelImage<3>&, const std::stop_token&);
 template ComponentPieces<4>::ComponentPieces(const MeshElements<4>&, DisjointSets,
-  const Components<4>&, const LabelImage<4>&, std::size_t, const std::stop_token&);
+  const Components<4>&, const LabelImage<4>&, const std::stop_token&);
 
 } // namespace voxplex

@@ -62,9 +62,9 @@ public:
     LabelId Label = 0;
     std::uint32_t Component = None;
     std::size_t Size = 0;  ///< elements
-    double Volume = 0.0;   ///< of the elements that were looked at
+    double Volume = 0.0;   ///< 0 if the label has one piece and one component
     std::size_t First = 0; ///< element
-    /** Components and their shares. Empty if the label has one piece and one component. */
+    /** Components and their shares. Likewise. */
     std::vector<std::pair<std::uint32_t, double>> Shares = {};
   };
 
@@ -72,12 +72,11 @@ public:
    * Takes time linear in the number of elements, and memory of 8 bytes for each.
    * @param elements LabelledTriangulation or MeshElements
    * @param pieces FindPieces() of these
-   * @param most elements of each piece that are looked at for volumes and shares, the first ones
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
   template <typename Elements>
   ComponentPieces(const Elements& elements, DisjointSets pieces, const Components<D>& components,
-    const LabelImage<D>& image, std::size_t most, const std::stop_token& stop);
+    const LabelImage<D>& image, const std::stop_token& stop);
 
   const std::vector<Piece>& All() const { return this->List; }
 

@@ -50,7 +50,7 @@ struct LabelledMesh
   const auto& NeighboursOf(SimplexId s) const { return this->Mesh().GetSimplex(s).N; }
 
   JoinedPieces<3> Join(
-    double smallestGap, const std::stop_token& stop = {}, bool mayRelabel = true, bool wants = true)
+    GapOptions gaps, const std::stop_token& stop = {}, bool mayRelabel = true, bool wants = true)
   {
     const Components<3> components(this->Image);
     ManifoldRepairOptions<3> options;
@@ -58,7 +58,7 @@ struct LabelledMesh
     options.Kept.emplace(KeptComponents<3>{ components, this->Image,
       wants ? components.FindWanted(8) : std::vector<bool>(components.All().size()) });
     options.Keeps = [mayRelabel](SimplexId) { return !mayRelabel; };
-    return JoinPieces<3>(this->Mesh(), this->Labels, options, smallestGap, stop);
+    return JoinPieces<3>(this->Mesh(), this->Labels, options, gaps, stop);
   }
 
   /** The number of pieces beside the first of each component. */
@@ -67,7 +67,7 @@ struct LabelledMesh
     const Components<3> components(this->Image);
     const LabelledTriangulation<3> elements(this->Mesh(), this->Labels);
     const ComponentPieces<3> pieces(
-      elements, FindPieces<3>(elements), components, this->Image, 1000, {});
+      elements, FindPieces<3>(elements), components, this->Image, {});
     std::set<std::uint32_t> held;
     for (const auto& piece : pieces.All())
     {
@@ -264,7 +264,7 @@ TEST(PieceJoints, JoinOrGiveAwayWhatIsLoose)
     LabelledMesh blobs(Blobs(seed), 5.0);
     const SimplexLabels before = blobs.Labels;
     loose += blobs.LoosePieces();
-    const std::vector<SimplexId> changed = blobs.Join(1e9).Relabelled;
+    const std::vector<SimplexId> changed = blobs.Join({ 1e9 }).Relabelled;
     left += blobs.LoosePieces();
     found += changed.size();
     for (SimplexId s = 0; s < before.size(); ++s)
@@ -290,7 +290,7 @@ TEST(PieceJoints, GiveAwayWhatIsSmall)
   {
     LabelledMesh blobs(Blobs(seed), 5.0);
     loose += blobs.LoosePieces();
-    EXPECT_TRUE(blobs.Join(0.0, {}, true, false).Gaps.empty());
+    EXPECT_TRUE(blobs.Join({}, {}, true, false).Gaps.empty());
     left += blobs.LoosePieces();
   }
   EXPECT_LT(2 * left, loose);
@@ -299,8 +299,8 @@ TEST(PieceJoints, GiveAwayWhatIsSmall)
 TEST(PieceJoints, TellGapsOfLargePieces)
 {
   LabelledMesh blobs(Blobs(6), 5.0);
-  EXPECT_TRUE(blobs.Join(1e9, {}, false).Gaps.empty());
-  EXPECT_GE(blobs.Join(0.0, {}, false).Gaps.size(), blobs.LoosePieces());
+  EXPECT_TRUE(blobs.Join({ 1e9 }, {}, false).Gaps.empty());
+  EXPECT_GE(blobs.Join({}, {}, false).Gaps.size(), blobs.LoosePieces());
   EXPECT_GT(blobs.LoosePieces(), 0u);
 }
 
@@ -309,7 +309,7 @@ TEST(PieceJoints, CanBeStopped)
   LabelledMesh blobs(Blobs(1), 5.0);
   std::stop_source source;
   source.request_stop();
-  EXPECT_THROW(blobs.Join(0.0, source.get_token()), Cancelled);
+  EXPECT_THROW(blobs.Join({}, source.get_token()), Cancelled);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -379,7 +379,7 @@ TEST(ComponentPieces, AreThoseOfTheExtractedMesh)
     ExtractMesh<3>(blobs.Mesh(), blobs.Surfaces, blobs.Labels, mesh, 1);
     const LabelledTriangulation<3> elements(blobs.Mesh(), blobs.Labels);
     const ComponentPieces<3> pieces(
-      elements, FindPieces<3>(elements), Components<3>(blobs.Image), blobs.Image, 1000000, {});
+      elements, FindPieces<3>(elements), Components<3>(blobs.Image), blobs.Image, {});
     std::map<std::int64_t, std::uint64_t> numbers;
     for (const auto& piece : pieces.All())
     {
@@ -387,7 +387,7 @@ TEST(ComponentPieces, AreThoseOfTheExtractedMesh)
     }
     EXPECT_EQ(numbers, CountFragments(mesh));
     const ComponentPieces<3> extracted(MeshElements<3>(mesh, blobs.Image), FindPieces<3>(mesh),
-      Components<3>(blobs.Image), blobs.Image, 1000000, {});
+      Components<3>(blobs.Image), blobs.Image, {});
     std::map<std::uint32_t, double> volumes; // by component
     for (const auto& piece : pieces.All())
     {

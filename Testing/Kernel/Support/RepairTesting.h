@@ -39,7 +39,7 @@ Repaired<D> RepairAll(const Triangulation<D>& triangulation, std::span<LabelId> 
 template <int D>
 ManifoldLabels<D> LabelsOf(ManifoldLabeller<D>& labeller, InterfaceStatistics& figures)
 {
-  return labeller.Repair(labeller.Take(), 0.0, figures);
+  return labeller.Repair(labeller.Take(), {}, figures);
 }
 
 } // namespace voxplex::checks
