@@ -25,11 +25,8 @@ namespace voxplex
  *
  * If an interface is sampled with delta, objects much thinner than delta can be lost: a Delaunay
  * mesh of too few points joins the regions on both sides. So some components may have no element
- * after refinement. FindLost() finds them, and SampleFiner() has them sampled (LocalSampling):
- * - First, a few points where the component is thickest (ThinPart), with a smaller delta
- *   (LocalDelta) only there.
- * - If the component still has no element, the same points again, more finely.
- * - Then the whole component, repeatedly, each time with half the delta.
+ * after refinement. FindLost() finds them, and SampleFiner() has them sampled as a whole (LocalSampling),
+ * more finely each time.
  *
  * The largest component of each label is checked however small it is, so that the mesh has all
  * labels of its image.
@@ -97,9 +94,8 @@ private:
   const LabelImage<D>& Image;
   const Components<D>& All;
   LocalSampling<D>& Sampling;
-  std::vector<double> Delta;      ///< by component
-  std::vector<unsigned> Attempts; ///< by component, times it was sampled where it is thickest
-  std::vector<bool> Wanted;       ///< by component
+  std::vector<double> Delta; ///< by component
+  std::vector<bool> Wanted;  ///< by component
   const bool MayRefine;
   unsigned Threads;
   std::stop_token Stop;

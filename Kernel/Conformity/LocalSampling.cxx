@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conformity/LocalSampling.h"
 
-#include "Domain/ThinPart.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 namespace voxplex
@@ -63,26 +61,6 @@ constexpr double FinestOfInterfaces = 0.2;
 constexpr double FinestInsideComponents = 0.1;
 
 /**
- * The largest number of voxels searched for the thickest part. In a larger component, only every
- * k-th voxel is searched.
- */
-constexpr std::int64_t MostVoxelsLookedAt = 1000;
-
-/**
- * Where a component is thickest, points are at least the first factor times its thickness apart,
- * and delta is at most the second factor times its thickness. The six points around a grain are
- * 0.71 of its thickness apart. Any larger factors from 0.6 and 1.5 on give about as many elements.
- */
-constexpr double SpacingAtThickest = 0.7;
-constexpr double BoundAtThickest = 2.0;
-
-/**
- * The smallest thickness, in finest spacings. In a thinner part, points would be too close to each
- * other.
- */
-constexpr double LeastThickness = 5.0;
-
-/**
  * The largest number of voxels that get points. In a larger component, only every k-th voxel gets
  * points; R1 finds the rest.
  */
@@ -105,28 +83,6 @@ double FinestSpacing(const GridGeometry<D>& grid, double fraction)
     const double mean = std::pow(grid.VoxelVolume(), 1.0 / D);
     return 2.5 * fraction * std::max(grid.SmallestSpacing(), 0.5 * mean);
   }
-}
-
-/** Calls visit(voxel) for voxels of a component, for every k-th if there are more than `most`. */
-template <int D, typename Visit>
-void ForSomeVoxels(const Components<D>& components, std::uint32_t component, std::int64_t most,
-  const std::stop_token& stop, const Visit& visit)
-{
-  const std::int64_t step = components.All()[component].Voxels / most + 1;
-  std::int64_t count = 0;
-  components.ForEachRun(component,
-    [&](const typename GridGeometry<D>::Index& first, std::int64_t length)
-    {
-      ThrowIfStopped(stop);
-      typename GridGeometry<D>::Index voxel = first;
-      for (; voxel[0] < first[0] + length; ++voxel[0])
-      {
-        if (count++ % step == 0)
-        {
-          visit(voxel);
-        }
-      }
-    });
 }
 
 } // namespace
@@ -346,18 +302,19 @@ std::size_t LocalSampling<D>::SampleComponent(
   this->Begin();
   const std::size_t before = this->Seeds.size();
   const LabelId label = components.All()[component].Label;
+  const std::int64_t step = components.All()[component].Voxels / MostSeededVoxels + 1;
+  std::int64_t count = 0;
   components.ForEachRun(component,
     [&](const Index& first, std::int64_t length)
-    { this->Local.SetBound(first, length, label, BoundFactor * spacing); });
-  ForSomeVoxels(components, component, MostSeededVoxels, this->Stop,
-    [&](const Index& voxel)
     {
-      for (std::size_t a = 0; a < D; ++a)
+      ThrowIfStopped(this->Stop);
+      this->Local.SetBound(first, length, label, BoundFactor * spacing);
+      for (Index voxel = first; voxel[0] < first[0] + length; ++voxel[0])
       {
-        for (const std::int64_t direction : { -1, 1 })
+        for (std::size_t k = 0; count % step == 0 && k < std::size_t{ 2 } * D; ++k)
         {
           Index neighbour = voxel;
-          neighbour[a] += direction;
+          neighbour[k / 2] += k % 2 == 0 ? -1 : 1;
           Point<D> z;
           if (components.At(neighbour) != component &&
             this->Surfaces.FirstCrossing(
@@ -366,36 +323,10 @@ std::size_t LocalSampling<D>::SampleComponent(
             this->Seeds.push_back({ z, spacing });
           }
         }
+        ++count;
       }
     });
   return this->Seeds.size() - before;
-}
-
-template <int D>
-std::size_t LocalSampling<D>::SampleThickest(
-  const Components<D>& components, std::uint32_t component, unsigned attempt, double largest)
-{
-  this->Begin();
-  std::optional<ThinPart<D>> thickest;
-  ForSomeVoxels(components, component, MostVoxelsLookedAt, this->Stop,
-    [&](const Index& voxel)
-    {
-      ThinPart<D> part(this->Image, this->Surfaces, voxel);
-      if (!thickest || part.IsBetterThan(*thickest))
-      {
-        thickest = std::move(part);
-      }
-    });
-  const double thickness =
-    std::ldexp(std::max(thickest->Thickness(), LeastThickness * this->FinestOfComponent),
-      -static_cast<int>(attempt));
-  for (const Point<D>& z : thickest->Ends())
-  {
-    this->Seeds.push_back({ z, SpacingAtThickest * thickness });
-  }
-  this->Local.SetBound(thickest->Voxel(), 1, components.All()[component].Label,
-    std::min(largest, BoundAtThickest * thickness));
-  return thickest->Ends().size();
 }
 
 template class LocalSampling<3>;

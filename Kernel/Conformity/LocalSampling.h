@@ -77,14 +77,6 @@ public:
   /** On all faces of a component, and inside of it a bound. */
   std::size_t SampleComponent(
     const Components<D>& components, std::uint32_t component, double spacing);
-
-  /**
-   * A few points where a component is thickest (ThinPart), each time half as far apart.
-   * @param attempt the number of calls before
-   * @param largest upper bound of the sampling distance there
-   */
-  std::size_t SampleThickest(
-    const Components<D>& components, std::uint32_t component, unsigned attempt, double largest);
   ///@}
 
   /** The faces that SampleInterfaces() has sampled so far, ascending. */

@@ -440,7 +440,7 @@ TEST(ComponentCheck, KeepsIslandsThatAreSmallBesideDelta)
     const SimplexMesh<3> few = Mesh(islands.Image, options, statistics);
     EXPECT_EQ(CountFound(few, islands.Centres, 2, 1.5), 27u);
     EXPECT_EQ(statistics.Components.Found, 28u);
-    EXPECT_LE(statistics.Components.Seeds, 27u * 6u);
+    EXPECT_LE(statistics.Components.Seeds, 27u * 72u) << "on all faces, three times";
     EXPECT_GE(statistics.Components.Rounds, 1u);
     EXPECT_TRUE(statistics.Components.Lost.empty());
 
@@ -450,7 +450,7 @@ TEST(ComponentCheck, KeepsIslandsThatAreSmallBesideDelta)
     EXPECT_GT(statistics.Components.Seeds, 27u * 8u);
     EXPECT_EQ(statistics.Components.Rounds, 0u);
     EXPECT_TRUE(statistics.Components.Lost.empty());
-    EXPECT_LT(few.Simplices.size(), exact.Simplices.size());
+    EXPECT_LT(few.Simplices.size(), 2 * exact.Simplices.size());
   }
 }
 
@@ -619,7 +619,7 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
     EXPECT_EQ(all[lost[0]].First[a] + islands.Image.CropOrigin()[a], 18);
   }
 
-  // Twice the six points around the middle, then those on all faces, again and again, with smaller bounds.
+  // The points on all faces, again and again, with smaller bounds.
   EXPECT_EQ(counts.Seeds, 0u);
   double smallest = local.Smallest();
   std::size_t before = 0;
@@ -627,9 +627,9 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
   while (check.SampleFiner(lost))
   {
     const std::vector<FeatureSeed<3>> seeds = sampling.TakeSeeds();
-    EXPECT_EQ(seeds.size(), rounds < 2 ? 6u : 24u) << rounds;
+    EXPECT_EQ(seeds.size(), 24u) << rounds;
     EXPECT_EQ(counts.Seeds, before += seeds.size());
-    EXPECT_LE(local.Smallest(), smallest);
+    EXPECT_LT(local.Smallest(), smallest);
     smallest = local.Smallest();
     ASSERT_LT(++rounds, 10);
   }
