@@ -91,17 +91,16 @@ std::optional<HiddenLayer<D>> HiddenLayerFinder<D>::Find(SimplexId s, unsigned i
       this->CrossingAt(after, before, runs[layer].Label) } };
 }
 
-/** Where a line from the middle of a layer leaves it, towards an end of it. */
+/** Where a line from the middle of a layer leaves it, towards an end of it; beyond a flat end, its projection. */
 template <int D>
 Point<D> HiddenLayerFinder<D>::CrossingAt(
   const Point<D>& end, const Point<D>& other, LabelId layer) const
 {
   const Point<D> middle = Interpolate(end, other, 0.5);
   Point<D> z;
-  return this->Surfaces.Label(middle) == layer &&
-      this->Surfaces.FirstCrossing(middle, layer, Interpolate(middle, end, 2.0), z)
-    ? z
-    : end;
+  const bool isFound = this->Surfaces.Label(middle) == layer &&
+    this->Surfaces.FirstCrossing(middle, layer, Interpolate(middle, end, 2.0), z);
+  return this->Surfaces.Bounds().Clamp(isFound ? z : end);
 }
 
 //------------------------------------------------------------------------------------------------

@@ -121,6 +121,50 @@ TEST(Topology, LayersOfAVoxelAreKept)
   }
 }
 
+/** Two boxes, one voxel apart, in six frames. */
+LabelImage<4> BoxesApart()
+{
+  std::vector<std::uint8_t> labels;
+  const std::array<std::int64_t, 4> size{ 20, 14, 14, 6 };
+  for (int t = 0; t < size[3]; ++t)
+  {
+    for (int z = 0; z < size[2]; ++z)
+    {
+      for (int y = 0; y < size[1]; ++y)
+      {
+        for (int x = 0; x < size[0]; ++x)
+        {
+          const bool isBeside = IsIn(y, 3, 10) && IsIn(z, 3, 10);
+          labels.push_back(isBeside && IsIn(x, 2, 8) ? 1 : isBeside && IsIn(x, 10, 16) ? 2 : 0);
+        }
+      }
+    }
+  }
+  return LabelImage<4>::FromScalars(std::span<const std::uint8_t>(labels),
+    GridGeometry<4>::Orthogonal(size, { 1.0, 1.0, 1.0, 1.0 }));
+}
+
+// Dual edges lead beyond the first and the last frame; points there would break the triangulation.
+TEST(Topology, AGapOfAVoxelIsKeptInSpaceTime)
+{
+  const LabelImage<4> image = BoxesApart();
+  for (const double delta : { 2.921, 2.975, 2.981, 3.0 })
+  {
+    MeshingOptions<4> options;
+    options.Sampling.Delta = delta;
+    options.Components.Exact = true;
+    ImageMesher<4> mesher(options);
+    SimplexMesh<4> mesh;
+    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+    EXPECT_TRUE(mesher.Statistics().Components.Broken.empty()) << delta;
+    EXPECT_TRUE(mesher.Statistics().Components.Contacts.empty()) << delta;
+    for (const Point<4>& p : mesh.Points)
+    {
+      ASSERT_TRUE(p[3] >= 0.0 && p[3] <= 5.0) << delta;
+    }
+  }
+}
+
 // Two components of one label: two pieces in the mesh.
 TEST(Topology, AGapOfAVoxelSeparatesComponents)
 {
