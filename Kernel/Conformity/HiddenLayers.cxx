@@ -146,12 +146,11 @@ class LayerRepair
 {
 public:
   LayerRepair(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
-    std::span<const LabelId> before, const ManifoldRepairOptions<D>& options)
+    const ManifoldRepairOptions<D>& options)
     : Mesh(triangulation)
     , Labels(labels)
-    , Before(before)
     , Finder(triangulation, labels, options)
-    , Near(triangulation, labels, before)
+    , Near(triangulation, labels)
     , Rules(this->Near, labels, options)
   {
   }
@@ -170,7 +169,7 @@ public:
       double least = 0.0;
       for (const SimplexId t : { s, n })
       {
-        if (this->Labels[t] != this->Before[t])
+        if (this->Labels[t] != this->Mesh.State(t).Given)
         {
           continue; // each simplex is changed once at most, so that passes end
         }
@@ -228,7 +227,6 @@ private:
 
   const Triangulation<D>& Mesh;
   const std::span<const LabelId> Labels;
-  const std::span<const LabelId> Before;
   const HiddenLayerFinder<D> Finder;
   const repair::Neighbourhood<D> Near;
   const repair::ChangeRules<D> Rules;
@@ -245,9 +243,8 @@ std::vector<SimplexId> ShowHiddenLayers(const Triangulation<D>& triangulation,
   {
     return {};
   }
-  const SimplexLabels before(labels.begin(), labels.end());
   repair::OrderedChanges<D> changes(triangulation, labels, layers.size(), threads, stop);
-  while (changes.Pass([&] { return LayerRepair<D>(triangulation, labels, before, options); },
+  while (changes.Pass([&] { return LayerRepair<D>(triangulation, labels, options); },
     [&](const LayerRepair<D>& finder, std::size_t k) { return finder.Propose(layers[k]); }))
   {
   }

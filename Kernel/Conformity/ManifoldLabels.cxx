@@ -109,10 +109,7 @@ void ManifoldLabeller<D>::Mark(const SimplexLabels& labels, const Simplices& cha
   }
 }
 
-/**
- * Makes the labels that simplices were given, or have at their circumcentres. Returns those that are not
- * examined.
- */
+/** Gives simplices that are not examined the labels at their circumcentres, and returns them. */
 template <int D>
 auto ManifoldLabeller<D>::TakeLabels(SimplexLabels& labels) const -> Simplices
 {
@@ -129,14 +126,13 @@ auto ManifoldLabeller<D>::TakeLabels(SimplexLabels& labels) const -> Simplices
         {
           continue;
         }
-        const SimplexState& state = this->Source.State(s);
-        if (state.Examined)
+        SimplexState& state = this->Source.State(s);
+        if (!state.Examined)
         {
-          labels[s] = state.Given;
-          continue;
+          state.Given = LabelAtCentre(this->Source, *this->Options.Surfaces, s);
+          fresh.push_back(s);
         }
-        labels[s] = LabelAtCentre(this->Source, *this->Options.Surfaces, s);
-        fresh.push_back(s);
+        labels[s] = state.Given;
       }
     },
     this->Stop);
@@ -163,7 +159,7 @@ auto ManifoldLabeller<D>::KeepLabels(const ManifoldLabels<D>& made) -> Simplices
       }
     },
     this->Stop);
-  const repair::Neighbourhood<D> near(this->Source, labels, labels);
+  const repair::Neighbourhood<D> near(this->Source, labels);
   for (const HiddenLayer<D>& layer : made.Layers)
   {
     this->Source.State(layer.Cell).Examined = false;

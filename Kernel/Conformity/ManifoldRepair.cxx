@@ -4,7 +4,6 @@
 
 #include "Conformity/OrderedChanges.h"
 #include "Conformity/RidgeRepair.h"
-#include "Mesh/SimplexLabels.h"
 
 #include <utility>
 
@@ -20,9 +19,7 @@ ManifoldRepairResult<D> RepairManifold(const Triangulation<D>& triangulation,
   {
     return {};
   }
-  const SimplexLabels before(labels.begin(), labels.end());
-  const auto makeFinder = [&]
-  { return repair::RidgeRepair<D>(triangulation, labels, before, options); };
+  const auto makeFinder = [&] { return repair::RidgeRepair<D>(triangulation, labels, options); };
   repair::OrderedChanges<D> changes(triangulation, labels, ridges.size(), threads, stop);
   // A change may make another one possible.
   while (changes.Pass(makeFinder,

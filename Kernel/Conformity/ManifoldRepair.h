@@ -63,7 +63,7 @@ struct ManifoldRepairResult
  * each bad ridge, simplices around it are given to the label of a neighbour, or to background, which
  * drops them. A change is made only if it leaves fewer bad ridges; ridges off junctions have a
  * larger weight. Simplices are changed only if
- * - all their vertices are on interfaces already, so that no vertex off the interfaces gets onto
+ * - all their vertices are on interfaces already (MarkInterfaceVertices), so that no vertex off the interfaces gets onto
  *   them;
  * - a simplex of the old label remains at one of the vertices;
  * - they are not larger than their new label allows;

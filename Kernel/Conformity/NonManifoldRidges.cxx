@@ -26,7 +26,7 @@ public:
   /** Both must outlive this object. */
   RidgeFinder(const Triangulation<D>& triangulation, std::span<const LabelId> labels)
     : Source(triangulation)
-    , Near(triangulation, labels, labels)
+    , Near(triangulation, labels)
   {
   }
 

@@ -5,7 +5,6 @@
 #include "Conformity/ChangeRules.h"
 #include "Geometry/SimplexQuality.h"
 #include "Mesh/LabelledTriangulation.h"
-#include "Mesh/SimplexLabels.h"
 #include "Parallel/ParallelFor.h"
 #include "Quality/ComponentPieces.h"
 
@@ -50,8 +49,7 @@ public:
     , Labels(labels)
     , Of(*options.Kept)
     , Gaps(gaps)
-    , Before(labels.begin(), labels.end())
-    , Near(triangulation, labels, Before)
+    , Near(triangulation, labels)
     , Rules(this->Near, labels, options)
     , Pieces(LabelledTriangulation<D>(triangulation, labels),
         FindPieces<D>(LabelledTriangulation<D>(triangulation, labels), stop), Of.All, Of.Image,
@@ -307,7 +305,6 @@ private:
   const std::span<LabelId> Labels;
   const KeptComponents<D>& Of;
   const GapOptions Gaps;
-  const SimplexLabels Before;
   const repair::Neighbourhood<D> Near;
   const repair::ChangeRules<D> Rules;
   ComponentPieces<D> Pieces;

@@ -47,15 +47,10 @@ template <int D>
 class Neighbourhood
 {
 public:
-  /**
-   * @param labels by simplex id; the owner may change them
-   * @param before the labels before any change
-   */
-  Neighbourhood(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
-    std::span<const LabelId> before)
+  /** @param labels by simplex id; the owner may change them */
+  Neighbourhood(const Triangulation<D>& triangulation, std::span<const LabelId> labels)
     : Source(triangulation)
     , Labels(labels)
-    , Before(before)
   {
   }
 
@@ -70,7 +65,7 @@ public:
     return this->Source.Points(v);
   }
   /** Whether a vertex had simplices of different labels before any change. */
-  bool IsOnInterface(VertexId v) const { return this->Find(v).OnInterface; }
+  bool IsOnInterface(VertexId v) const { return this->Source.GetVertex(v).OnInterface; }
   voxplex::Circumball<D> Circumball(SimplexId t) const { return this->Source.GetCircumball(t); }
 
   /** The star of a vertex. Ascending, so that results do not depend on where a search begins. */
@@ -296,7 +291,6 @@ private:
   {
     std::vector<SimplexId> Cells;
     std::size_t SeenIn = 0;
-    bool OnInterface = false;
   };
 
   Star& Find(VertexId v) const
@@ -307,15 +301,12 @@ private:
     {
       star.Cells = voxplex::StarOf(this->Source, v, this->Source.GetVertex(v).Incident);
       std::sort(star.Cells.begin(), star.Cells.end());
-      star.OnInterface = std::any_of(star.Cells.begin(), star.Cells.end(),
-        [&](SimplexId t) { return this->Before[t] != this->Before[star.Cells.front()]; });
     }
     return star;
   }
 
   const Triangulation<D>& Source;
   const std::span<const LabelId> Labels;
-  const std::span<const LabelId> Before;
   mutable std::unordered_map<VertexId, Star> Stars; ///< cache of the requested ones
   mutable std::vector<VertexId> SeenVertices;
   mutable std::size_t Search = 1;

@@ -39,14 +39,11 @@ template <int D>
 class RidgeRepair
 {
 public:
-  /**
-   * @param labels by simplex id; they may change between calls
-   * @param before the labels before any change
-   */
+  /** @param labels by simplex id; they may change between calls */
   RidgeRepair(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
-    std::span<const LabelId> before, const ManifoldRepairOptions<D>& options)
+    const ManifoldRepairOptions<D>& options)
     : Labels(labels)
-    , Near(triangulation, labels, before)
+    , Near(triangulation, labels)
     , Rules(this->Near, labels, options)
   {
   }

@@ -92,7 +92,7 @@ struct SimplexState
   bool NearSurface; ///< its circumball may meet an interface
   /** Whether an inspection has given it a label, and has nothing to mend around it. */
   bool Examined;
-  LabelId Given; ///< this label; valid if Examined
+  LabelId Given; ///< this label; if not Examined, that of the last inspection before its repairs
 
   /** A thread may call this even if it owns no vertex of the simplex. */
   std::uint32_t CurrentGeneration() const

@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "Conformity/NonManifoldRidges.h"
 #include "Conformity/OpenRidges.h"
+#include "Conformity/InterfaceVertices.h"
 #include "Conformity/PieceJoints.h"
 #include "Domain/ImageDomain.h"
 #include "Geometry/SimplexQuality.h"
@@ -44,6 +45,7 @@ struct LabelledMesh
     , Context(Refined(this->Surfaces, delta))
     , Labels(LabelSimplices<3>(this->Context->Mesh, this->Surfaces))
   {
+    MarkInterfaceVertices<3>(this->Context->Mesh, this->Labels, 1, {});
   }
 
   const Triangulation<3>& Mesh() const { return this->Context->Mesh; }
@@ -78,7 +80,7 @@ struct LabelledMesh
 
   LabelImage<3> Image;
   const ImageDomain<3> Surfaces;
-  const std::unique_ptr<const RefinementContext<3>> Context;
+  const std::unique_ptr<RefinementContext<3>> Context;
   SimplexLabels Labels;
 };
 

@@ -45,7 +45,7 @@ struct RefinedBlobs
 
   const LabelImage<3> Image;
   const ImageDomain<3> Surfaces;
-  const std::unique_ptr<const RefinementContext<3>> Context;
+  const std::unique_ptr<RefinementContext<3>> Context;
   SimplexLabels Labels;
 };
 

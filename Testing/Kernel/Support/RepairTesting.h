@@ -4,6 +4,7 @@
 #ifndef voxplex_RepairTesting_h
 #define voxplex_RepairTesting_h
 
+#include "Conformity/InterfaceVertices.h"
 #include "Conformity/ManifoldLabels.h"
 #include "Conformity/ManifoldRepair.h"
 
@@ -24,10 +25,11 @@ struct Repaired : ManifoldRepairResult<D>
 };
 
 template <int D>
-Repaired<D> RepairAll(const Triangulation<D>& triangulation, std::span<LabelId> labels,
+Repaired<D> RepairAll(Triangulation<D>& triangulation, std::span<LabelId> labels,
   const ManifoldRepairOptions<D>& options = {}, unsigned threads = 1,
   const std::stop_token& stop = {})
 {
+  MarkInterfaceVertices<D>(triangulation, labels, threads, stop);
   const std::vector<InterfaceRidge<D>> ridges =
     FindNonManifoldRidges<D>(triangulation, labels, threads, stop);
   Repaired<D> result{ RepairManifold<D>(triangulation, labels, ridges, options, threads, stop) };
