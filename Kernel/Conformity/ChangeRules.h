@@ -43,7 +43,7 @@ enum class Leeway
 {
   Usual,
   WholePiece, ///< leaves nothing of the label beside it: there is more of the component elsewhere
-  OffInterfaces, ///< moves vertices onto interfaces, and has angles as at junctions
+  OffInterfaces, ///< vertices may come onto interfaces
 };
 
 /** @brief The rules for changes of labels, whatever they are made for. See RepairManifold(). */
@@ -60,6 +60,7 @@ public:
     : Labels(labels)
     , Near(near)
     , LargestRatio(options.Shape.RadiusEdgeRatio)
+    , SliverSine(std::sin(options.SliverAngle * std::numbers::pi / 180.0))
     , FacetCosine(std::cos(options.Shape.FacetAngle * std::numbers::pi / 180.0))
     , JunctionCosine(std::cos(options.Shape.JunctionFacetAngle * std::numbers::pi / 180.0))
     , Surfaces(options.Surfaces)
@@ -106,7 +107,7 @@ public:
         }
         const bool isNew = this->Near.LabelBeside(t, i) == own &&
           !change.Touches(this->Near.Beside(t, i)); // the facet becomes an interface facet
-        if (isNew && !this->HasGoodAngles(t, i, change, mayLeave))
+        if (isNew && !this->HasGoodAngles(t, i, change))
         {
           return false;
         }
@@ -303,12 +304,22 @@ private:
     return ball.Radius2 > size * size;
   }
 
-  /** Whether a simplex would become an element with too large a ratio. Those of a label have good ones. */
+  /** Whether a simplex would become an element of a bad shape. Those of a label have good ones. */
   bool IsPoor(SimplexId t, LabelId label) const
   {
-    return label != 0 && this->Labels[t] == 0 &&
-      RadiusEdgeRatio<D>(this->Near.Points(this->Near.VerticesOf(t)).data(),
-        this->Near.Circumball(t).Radius2) > this->LargestRatio;
+    if (label == 0 || this->Labels[t] != 0)
+    {
+      return false;
+    }
+    const auto points = this->Near.Points(this->Near.VerticesOf(t));
+    if constexpr (D == 3)
+    {
+      if (SmallestDihedralSine(points.data()) < this->SliverSine)
+      {
+        return true;
+      }
+    }
+    return RadiusEdgeRatio<D>(points.data(), this->Near.Circumball(t).Radius2) > this->LargestRatio;
   }
 
   /** Where a facet with these angles may be; anywhere in 4D. */
@@ -341,12 +352,11 @@ private:
     return sharpness;
   }
 
-  bool HasGoodAngles(SimplexId t, unsigned i, const Change& change, bool asAtJunctions) const
+  bool HasGoodAngles(SimplexId t, unsigned i, const Change& change) const
   {
     const Sharpness sharpness = this->SharpnessOf(t, i);
     return sharpness == Sharpness::Anywhere ||
-      (sharpness == Sharpness::AtJunctionsOnly &&
-        (asAtJunctions || this->HasJunction(t, i, change)));
+      (sharpness == Sharpness::AtJunctionsOnly && this->HasJunction(t, i, change));
   }
 
   /** Whether a vertex of a facet is at a junction after a change. */
@@ -380,6 +390,7 @@ private:
   const std::span<const LabelId> Labels;
   const Neighbourhood<D>& Near;
   const double LargestRatio;
+  const double SliverSine;
   const double FacetCosine;
   const double JunctionCosine; ///< at least FacetCosine
   const Domain<D>* const Surfaces;

@@ -38,6 +38,8 @@ template <int D>
 struct ManifoldRepairOptions
 {
   ShapeBounds Shape; ///< of new interface triangles: angles only; 3D only
+  /** Background with a dihedral angle below it, or above its supplement, becomes no element. Degrees; 3D only. */
+  double SliverAngle = 0.0;
   /** The meshed domain. Faces where its image cuts the object get no dents. Null: no such faces. */
   const Domain<D>* Surfaces = nullptr;
   /** Bounds the circumradius of simplices that get another label. Null: no bound. */

@@ -36,6 +36,10 @@ ManifoldRepairOptions<D> MakeRepairOptions(
   ManifoldRepairOptions<D> options;
   options.Shape =
     ShapeBounds::With(run.Options.Shape.RadiusEdgeRatio, run.Options.Shape.FacetAngle);
+  if constexpr (D == 3) // optimisation mends slivers
+  {
+    options.SliverAngle = run.Options.Optimisation.Run ? 0.0 : run.Options.Shape.Slivers.Angle;
+  }
   options.Surfaces = run.Prepared.Surfaces.get();
   options.Sizing = &stage.Sizing();
   // In 4D noise would bring many more triangles that have to be opened.

@@ -87,6 +87,7 @@ MeshFigures CheckMesh(const Subject<D>& subject, Findings& findings)
   CheckOrientation(subject, findings);
   CheckConformity(subject, findings);
   CheckComponents(subject, figures, findings);
+  CheckTopology(subject, findings);
   CheckBoundaries(subject, figures, findings);
   CheckShapes(subject, findings);
   CheckAgainstImage(subject, findings);

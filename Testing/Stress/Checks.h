@@ -146,6 +146,13 @@ template <int D>
 void CheckComponents(const Subject<D>& subject, MeshFigures& figures, Findings& findings);
 
 /**
+ * Components in several pieces, pieces that unite components, and labels that touch where they do not in
+ * the image, are listed in the statistics.
+ */
+template <int D>
+void CheckTopology(const Subject<D>& subject, Findings& findings);
+
+/**
  * Boundaries of labels: closed, and manifold at their edges (4D: triangles) if that is asked for. At time planes, where
  * pentatopes keep their labels, a triangle need not be manifold.
  */

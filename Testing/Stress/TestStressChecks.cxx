@@ -327,6 +327,50 @@ TEST(StressChecks, FindWhatIsNotOfTheImage)
     });
 }
 
+TEST(StressChecks, FindWhatTouchesSilently)
+{
+  const auto cut = [](auto& m)
+  {
+    for (std::size_t s = 0; s < m.Mesh.Simplices.size(); ++s) // a slice of a box
+    {
+      double x = 0.0;
+      for (const std::uint32_t v : m.Mesh.Simplices[s])
+      {
+        x += m.Mesh.Points[v][0] / static_cast<double>(m.Mesh.Simplices[s].size());
+      }
+      m.Mesh.Labels[s] = x > 2.0 && x < 3.5 ? 7 : m.Mesh.Labels[s];
+    }
+  };
+  ExpectFound<3>("broken", cut);
+  ExpectFound<4>("broken", cut);
+  const auto touch = [](auto& m)
+  {
+    for (auto& labels : m.Mesh.FacetLabels)
+    {
+      labels = labels == std::array<std::int64_t, 2>{ 7, 3 } ? std::array<std::int64_t, 2>{ 9, 3 }
+                                                             : labels;
+    }
+  };
+  ExpectFound<3>("contact", touch);
+  ExpectFound<4>("contact", touch);
+  const Meshed<3> twins(
+    [](StressCase<3>&
+        of) // the third box has the label of the first, and that of the second is between them
+    {
+      of.Image.ForEach(
+        [&](const Volume<3>::Index& v, std::size_t i)
+        {
+          const bool inside = v[1] > 0 && v[1] < 7 && v[2] > 0 && v[2] < 7;
+          of.Image.Labels[i] = inside && (v[0] == 9 || v[0] == 10) ? 7
+            : of.Image.Labels[i] == 9                              ? 3
+                                                                   : of.Image.Labels[i];
+        });
+    });
+  ExpectNothing(twins);
+  ExpectFoundIn<3>(twins, "united",
+    [](Meshed<3>& m) { std::fill(m.Mesh.Labels.begin(), m.Mesh.Labels.end(), 3); });
+}
+
 TEST(StressChecks, ExcuseWhatOptimisationMayMove)
 {
   Meshed<3> moved([](StressCase<3>& c) { c.Options.Optimisation.Run = true; });
