@@ -30,7 +30,6 @@ namespace
 constexpr std::size_t MostLookedAt = 20000;
 constexpr unsigned MostWays = 32;
 constexpr unsigned MostWaysOfSmall = 4;
-constexpr unsigned MostWaysAtLast = 1000;
 
 /** Pieces of more simplices keep their label, unless they are smaller than a voxel. */
 constexpr std::size_t MostGivenAway = 5;
@@ -111,11 +110,12 @@ private:
     }
     if (mayBeGap && !isDone && this->Gaps.AreLast)
     {
-      isDone = this->Connect(p, of, repair::Leeway::OffInterfaces, MostWaysAtLast);
+      isDone = this->Connect(p, of, repair::Leeway::OffInterfaces, MostWays);
     }
     const bool isSmall =
       volume < this->Of.Image.Grid().VoxelVolume() || (!mayBeGap && of.size() <= MostGivenAway);
-    if (isDone || (isSmall && this->GiveAway(of)) || !mayBeGap)
+    const bool isSampled = mayBeGap && !this->Gaps.AreLast;
+    if (isDone || (isSmall && !isSampled && this->GiveAway(of)) || !mayBeGap)
     {
       return;
     }

@@ -55,8 +55,8 @@ struct JoinedPieces
  * - a large piece has a gap on the first one, which needs finer sampling. If nothing is sampled any more,
  *   ways may also lead through simplices with vertices off the interfaces: where a part of one voxel turns, the
  *   label field does not connect it, however finely it is sampled;
- * - one of less than a voxel, or of at most five simplices if it has no gap, gets the label beside it with the
- *   largest common area that the rules allow.
+ * - one that has no gap, or that finer sampling has not helped, gets the label beside it with the largest common
+ *   area that the rules allow, if it is smaller than a voxel, or has no gap and at most five simplices.
  *
  * The thesis keeps all pieces.
  *
