@@ -221,8 +221,8 @@ class Output(NamesTestCase):
         self.assertEqual((report["label_names_from"], report["parameters"]["label_table"]), ("names.txt",) * 2)
 
         array = images.two_labels(24, 6.0)
-        array[:, 2, 2] = 9  # a rod of one voxel
-        path = images.write_nrrd(self.folder / "rod.nrrd", array)
+        array[2] = 9  # a sheet of one voxel
+        path = images.write_nrrd(self.folder / "sheet.nrrd", array)
         self.mesh("--input", path, "--label-table", "names.txt", "--delta", 8, "--stats", "s.json", "--interface-rounds", 0,
                   warning=r"less than half of the volume of these labels, which are thin for a --delta of 8: .*"
                           r"9 \(Speck\) \(\d+ %\).*\. --exact-components or a smaller --delta keeps them\.")
