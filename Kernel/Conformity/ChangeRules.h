@@ -42,7 +42,7 @@ Facet<D> FacetOf(const std::array<VertexId, static_cast<std::size_t>(D + 1)>& v,
 enum class Leeway
 {
   Usual,
-  WholePiece, ///< leaves nothing of the label beside it: there is more of the component elsewhere
+  WholePiece,    ///< nothing of the label need be left beside it: there is more elsewhere
   OffInterfaces, ///< vertices may come onto interfaces
 };
 
@@ -76,7 +76,7 @@ public:
    */
   bool IsAllowed(const Change& change, Leeway leeway = Leeway::Usual) const
   {
-    const bool mayLeave = leeway == Leeway::OffInterfaces;
+    const bool mayAddVertices = leeway == Leeway::OffInterfaces;
     bool leavesSome = leeway == Leeway::WholePiece;
     for (const SimplexId t : change.Cells)
     {
@@ -88,7 +88,7 @@ public:
       const LabelId own = this->Labels[t];
       for (const VertexId v : this->Near.VerticesOf(t))
       {
-        if (!mayLeave && !this->Near.IsOnInterface(v))
+        if (!mayAddVertices && !this->Near.IsOnInterface(v))
         {
           return false;
         }

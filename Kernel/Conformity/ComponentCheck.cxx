@@ -13,19 +13,19 @@ namespace
 {
 
 /**
- * The delta that suits a component is this factor times the ratio of its volume to its surface: 0.57 of
- * the edge of a cube. With 2.7, exact meshes of brains have twice as many additional elements, and
- * volumes are hardly better.
+ * The delta that suits a component is this factor times the ratio of its volume to its surface: 0.45 of
+ * the edge of a cube. With 3.4, exact meshes have up to a third fewer elements, but volumes are off by a
+ * fifth more.
  */
-constexpr double SamplesPerThickness = 3.4;
+constexpr double SamplesPerThickness = 2.7;
 
 /**
- * A lost component is first sampled with this factor times its own delta, or the second factor times what it
- * has, and from then on with the second factor times the last one. With 0.6, or if the first one is 1, brains whose parts are
- * mostly thinner than delta get more elements, and noise in space-time three times as many points.
+ * A lost component is first sampled with this factor times its own delta, or the second factor times what
+ * it has, and from then on with the second factor times the last one. If the first one is 1, brains whose
+ * parts are mostly thinner than delta get half as many elements again.
  */
 constexpr double FirstDelta = 3.0;
-constexpr double NextDelta = 0.7;
+constexpr double NextDelta = 0.6;
 
 } // namespace
 

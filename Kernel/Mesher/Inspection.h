@@ -94,8 +94,8 @@ private:
   std::optional<ComponentCheck<D>> Components; ///< empty if components are not checked
   std::optional<ComponentCheck<D>> OfFrames;   ///< likewise, and in 3D
   ManifoldLabels<D> Made;
-  unsigned GapRounds; ///< that are left
-  GapOptions Gaps;
+  unsigned GapRounds;                                ///< that are left
+  GapOptions Gaps;                                   ///< of the next repair
   std::array<bool, NumberOfFinders> NeededNothing{}; ///< at its last inspection
 };
 

@@ -100,8 +100,8 @@ class Atlases(ProgramTestCase):
             self.assertEqual(report["lost_components"], [])
             errors.append(report["image"]["label_volume_error"])
             elements.append(report["elements"])
-        self.assertLess(errors[1], 0.9 * errors[0])
-        self.assertTrue(2 * elements[0] < elements[1] < 5 * elements[0], elements)
+        self.assertLess(errors[1], 0.7 * errors[0])
+        self.assertGreater(elements[1], 2 * elements[0])
 
     # Refinement did not end here either, where a life is hardly longer than delta. What is left there is out of bounds, and the user is told.
     @unittest.skipUnless(CASES.exists(), "the small cases are not beside the checkout")

@@ -3,9 +3,9 @@
 // Pieces of components are joined or get the label beside them, and thin components hold together if they are to be exact.
 #include "Base/DisjointSets.h"
 #include "Base/Error.h"
+#include "Conformity/InterfaceVertices.h"
 #include "Conformity/NonManifoldRidges.h"
 #include "Conformity/OpenRidges.h"
-#include "Conformity/InterfaceVertices.h"
 #include "Conformity/PieceJoints.h"
 #include "Domain/ImageDomain.h"
 #include "Geometry/SimplexQuality.h"
