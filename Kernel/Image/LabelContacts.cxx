@@ -4,6 +4,8 @@
 
 #include "Base/GridIndex.h"
 
+#include <boost/dynamic_bitset.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +24,98 @@ namespace
  * 1.5 sampling distances away from all contacts.
  */
 constexpr double FacetReach = 0.5;
+
+using Bits = boost::dynamic_bitset<std::uint64_t>;
+
+/**
+ * @brief Sets of the voxels of a box. The bits are in the order of indices, with a free one after each line
+ * along each axis, so that the bits beside that of a voxel are of voxels beside it, or free.
+ */
+template <int D>
+class VoxelSets
+{
+public:
+  using Index = typename GridGeometry<D>::Index;
+
+  VoxelSets(const Index& low, const Index& high)
+    : Low(low)
+    , High(high)
+  {
+    std::size_t stride = 1;
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      this->Strides[k] = stride;
+      stride *= static_cast<std::size_t>(high[k] - low[k] + 2);
+    }
+    this->Size = stride;
+  }
+
+  std::size_t BitOf(const Index& voxel) const
+  {
+    std::size_t bit = 0;
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      bit += static_cast<std::size_t>(voxel[k] - this->Low[k]) * this->Strides[k];
+    }
+    return bit;
+  }
+
+  /** The voxels of some labels. */
+  template <std::size_t N>
+  std::array<Bits, N> VoxelsOf(
+    const LabelImage<D>& image, const std::array<LabelId, N>& labels) const
+  {
+    std::array<Bits, N> found;
+    found.fill(Bits(this->Size));
+    const auto end = static_cast<std::size_t>(this->High[0] + 1);
+    Index last = this->High;
+    last[0] = this->Low[0];
+    ForEachIndex(this->Low, last,
+      [&](const Index& first)
+      {
+        const std::span<const LabelId> row = image.RowAt(first);
+        std::size_t bit = this->BitOf(first);
+        for (auto x = static_cast<std::size_t>(first[0]); x != end; ++x, ++bit)
+        {
+          const LabelId label = x < row.size() ? row[x] : LabelId{ 0 };
+          for (std::size_t k = 0; k < N; ++k)
+          {
+            if (label == labels[k])
+            {
+              found[k].set(bit);
+            }
+          }
+        }
+      });
+    return found;
+  }
+
+  Bits SetOf(const Index& voxel) const
+  {
+    Bits set(this->Size);
+    set.set(this->BitOf(voxel));
+    return set;
+  }
+
+  /** Adds the voxels beside those of a set along an axis. */
+  void Widen(Bits& set, std::size_t axis)
+  {
+    this->Before = set;
+    this->Before <<= this->Strides[axis];
+    this->After = set;
+    this->After >>= this->Strides[axis];
+    set |= this->Before;
+    set |= this->After;
+  }
+
+private:
+  const Index Low;
+  const Index High; ///< is in the box
+  std::array<std::size_t, static_cast<std::size_t>(D)> Strides;
+  std::size_t Size;
+  Bits Before; ///< kept between calls only for their memory
+  Bits After;
+};
 
 } // namespace
 
@@ -105,61 +199,16 @@ bool LabelContacts<D>::TouchNear(
   return false;
 }
 
-/** Whether two labels touch in a box, with all its voxels, but at most 64 along the first axis. */
 template <int D>
-bool LabelContacts<D>::TouchInBox(Index low, Index high, LabelId a, LabelId b) const
+bool LabelContacts<D>::TouchInBox(const Index& low, const Index& high, LabelId a, LabelId b) const
 {
-  constexpr std::int64_t Bits = 64;
-  const std::int64_t width = std::min(high[0] + 1 - low[0], Bits);
-  low[0] = (low[0] + high[0] + 1 - width) / 2;
-  high[0] = low[0];
-  using Rows = boost::container::small_vector<std::uint64_t, 256>; // a bit for each voxel
-  Rows ofA;
-  Rows ofB;
-  std::uint64_t anyA = 0;
-  std::uint64_t anyB = 0;
-  ForEachIndex(low, high,
-    [&](const Index& first)
-    {
-      const std::span<const LabelId> row = this->Image.RowAt(first);
-      std::uint64_t inA = 0;
-      std::uint64_t inB = 0;
-      for (std::int64_t i = 0; i < width; ++i)
-      {
-        const std::int64_t x = first[0] + i;
-        const LabelId label =
-          x >= 0 && x < std::ssize(row) ? row[static_cast<std::size_t>(x)] : LabelId{ 0 };
-        inA |= std::uint64_t{ label == a } << i;
-        inB |= std::uint64_t{ label == b } << i;
-      }
-      ofA.push_back(inA);
-      ofB.push_back(inB);
-      anyA |= inA;
-      anyB |= inB;
-    });
-  if (anyA == 0 || anyB == 0)
+  VoxelSets<D> sets(low, high);
+  auto [ofA, nearB] = sets.VoxelsOf(this->Image, std::array{ a, b });
+  for (std::size_t k = 0; k < D; ++k)
   {
-    return false;
+    sets.Widen(nearB, k);
   }
-  std::size_t stride = 1;
-  for (std::size_t k = 1; k < D;
-       ++k) // the voxels of b are spread to the rows beside along each axis
-  {
-    const std::size_t line = stride * static_cast<std::size_t>(high[k] + 1 - low[k]);
-    const Rows before = ofB;
-    for (std::size_t i = 0; i < before.size(); ++i)
-    {
-      ofB[i] |= i % line >= stride ? before[i - stride] : 0;
-      ofB[i] |= i % line + stride < line ? before[i + stride] : 0;
-    }
-    stride = line;
-  }
-  bool touch = false;
-  for (std::size_t i = 0; i < ofA.size(); ++i)
-  {
-    touch = touch || ((ofA[i] | ofA[i] << 1 | ofA[i] >> 1) & ofB[i]) != 0;
-  }
-  return touch;
+  return ofA.intersects(nearB);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -206,48 +255,32 @@ bool LabelContacts<D>::AreConnected(const Point<D>& p, const Point<D>& q, LabelI
   {
     return true;
   }
-  Index low;
-  Index extent;
-  for (std::size_t k = 0; k < D; ++k)
+  for (const double detour : { 0.0, Detour }) // a small box answers many questions
   {
-    const auto by = static_cast<std::int64_t>(Detour * this->Diagonal * this->VoxelsPerLength[k]);
-    low[k] = std::min(from[k], to[k]) - by;
-    extent[k] = std::max(from[k], to[k]) + by + 1 - low[k];
-    from[k] -= low[k];
-    to[k] -= low[k];
-  }
-  std::vector<bool> isSeen(CountCells(extent));
-  std::vector<Index> front{ from };
-  isSeen[OffsetOf(from, extent)] = true;
-  while (!front.empty())
-  {
-    const Index at = front.back();
-    front.pop_back();
-    if (at == to)
+    Index low;
+    Index high;
+    for (std::size_t k = 0; k < D; ++k)
     {
-      return true;
+      const auto by = static_cast<std::int64_t>(detour * this->Diagonal * this->VoxelsPerLength[k]);
+      low[k] = std::min(from[k], to[k]) - by;
+      high[k] = std::max(from[k], to[k]) + by;
     }
-    for (const bool isTowards : { false, true }) // the last is the next to be looked at
+    VoxelSets<D> sets(low, high);
+    const Bits all = sets.VoxelsOf(this->Image, std::array{ label })[0];
+    Bits reached = sets.SetOf(from);
+    Bits before;
+    while (reached != before && !reached.test(sets.BitOf(to)))
     {
+      before = reached;
       for (std::size_t k = 0; k < D; ++k)
       {
-        Index next = at;
-        next[k] += (to[k] > at[k]) == isTowards ? 1 : -1;
-        if (next[k] < 0 || next[k] >= extent[k] || isSeen[OffsetOf(next, extent)])
-        {
-          continue;
-        }
-        isSeen[OffsetOf(next, extent)] = true;
-        Index voxel = next;
-        for (std::size_t j = 0; j < D; ++j)
-        {
-          voxel[j] += low[j];
-        }
-        if (this->Image.At(voxel) == label)
-        {
-          front.push_back(next);
-        }
+        sets.Widen(reached, k);
+        reached &= all;
       }
+    }
+    if (reached.test(sets.BitOf(to)))
+    {
+      return true;
     }
   }
   return false;

@@ -77,7 +77,7 @@ private:
   /** How far beyond both places a connection may run, in diagonals of a voxel. */
   static constexpr double Detour = 3.0;
 
-  bool TouchInBox(Index low, Index high, LabelId a, LabelId b) const;
+  bool TouchInBox(const Index& low, const Index& high, LabelId a, LabelId b) const;
   bool FindVoxelOf(LabelId label, Index& voxel) const;
 
   const LabelImage<D>& Image;
