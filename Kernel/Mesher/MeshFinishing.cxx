@@ -28,13 +28,11 @@ namespace
 {
 
 /**
- * How far optimisation may move vertices off interfaces as a last resort. In 3D in cube roots of the
- * voxel volume: with 0.1 of the smallest spacing, one to nine tetrahedra of an atlas stayed poor, at
- * 12 degrees and more; now hardly any does. In 4D in smallest voxel spacings: with 0.1, two
- * phantoms kept a pentatope below the target.
+ * How far optimisation may move vertices off interfaces as a last resort. In 3D in deltas: with a quarter
+ * of a voxel, up to 14 tetrahedra of an atlas stayed poor at deltas of 3 to 8 voxels; now hardly any does.
+ * In 4D in smallest voxel spacings: with 0.1, two phantoms kept a pentatope below the target.
  */
 constexpr double ToleranceIn3D = 0.25;
-constexpr double LargestToleranceIn3D = 0.5; ///< in smallest voxel spacings
 constexpr double ToleranceIn4D = 0.25;
 
 /** Calls visit(components, wanted, statistics) for those of the image, and in 4D of its frames. */
@@ -160,14 +158,12 @@ void FindSlabs(const TimePlanes& planes, SimplexMesh<4>& mesh)
 void Optimise(const RunEnvironment<3>& run, ExtractedMesh<3>& extracted)
 {
   const MeshingOptions<3>& asked = run.Options;
-  const LabelImage<3>& image = run.Prepared.Image;
   ComponentGuard<3> guard = MakeGuard(run);
   OptimisationOptions options;
   options.Shape = ShapeBounds::With(
     std::max(OptimisedRadiusEdgeRatio, asked.Shape.RadiusEdgeRatio), asked.Shape.FacetAngle);
   options.Seconds = asked.Optimisation.Seconds;
-  options.InterfaceTolerance = std::min(ToleranceIn3D * std::cbrt(image.Grid().VoxelVolume()),
-    LargestToleranceIn3D * image.Grid().SmallestSpacing());
+  options.InterfaceTolerance = ToleranceIn3D * run.Statistics.Delta;
   options.Guard = &guard;
   const OptimisationStatistics done =
     OptimiseMesh(extracted.Mesh, *run.Prepared.Surfaces, options, asked.Team.Threads, run.Stop);

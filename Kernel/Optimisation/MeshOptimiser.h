@@ -39,8 +39,9 @@ struct OptimisationOptions
   /** Interface edges are flipped only between triangles that make at most this angle. */
   double CreaseAngle = 30.0;
   /**
-   * How far vertices may be moved off interfaces as a last resort. Vertices on junctions cannot
-   * move in any other way. A quarter of a voxel is a good value; 0 means not at all.
+   * How far vertices may be moved off interfaces as a last resort, unless 0.4 of their shortest edge on
+   * interfaces is less. Vertices on junctions cannot move in any other way. A quarter of the sampling
+   * distance is a good value; 0 means not at all.
    */
   double InterfaceTolerance = 0.0;
 

@@ -30,6 +30,8 @@ constexpr double Enough = 1.02;
 constexpr double LeastGainOfInsertion = 1.1;
 /** The largest number of tetrahedra of a cavity that grows. */
 constexpr std::size_t LargestCavity = 32;
+/** A vertex is moved off interfaces by this part of its shortest edge on them, at most. */
+constexpr double ReachOfEdges = 0.4;
 /** The largest distance of a vertex from its interface, in edges. */
 constexpr double FarthestHeight = 0.5;
 /** The largest height above an interface, in distances from its closest point. */
@@ -113,7 +115,7 @@ bool Smoother::Improve(std::uint32_t v)
 bool Smoother::MoveOffInterface(std::uint32_t v)
 {
   const TetrahedralComplex& mesh = this->Target.Mesh();
-  if (!(this->Reach > 0.0) || mesh.Kinds[v] == VertexRole::Free ||
+  if (!(this->LargestReach > 0.0) || mesh.Kinds[v] == VertexRole::Free ||
     !this->Target.GatherStar(v, this->Star))
   {
     return false;
@@ -123,6 +125,14 @@ bool Smoother::MoveOffInterface(std::uint32_t v)
   Point<3> p = mesh.Points[v];
   const auto known = this->Anchors.find(v);
   this->Anchor = known == this->Anchors.end() ? p : known->second;
+  this->Reach = this->LargestReach;
+  for (const FanFacet& facet : this->Fan)
+  {
+    for (const std::uint32_t w : { facet.First, facet.Second })
+    {
+      this->Reach = std::min(this->Reach, ReachOfEdges * Distance(this->Anchor, mesh.Points[w]));
+    }
+  }
   if (!this->AscendInStar(p))
   {
     return false;

@@ -72,7 +72,7 @@ public:
     : Target(patch)
     , Image(domain)
     , Rules(rules)
-    , Reach(reach)
+    , LargestReach(reach)
   {
   }
 
@@ -82,7 +82,10 @@ public:
    */
   bool Improve(std::uint32_t v);
 
-  /** Moves v, a vertex on interfaces, by at most `reach`. Returns false if v does not move. */
+  /**
+   * Moves v, a vertex on interfaces, by at most `reach`, and 0.4 of its shortest edge on them. Returns
+   * false if v does not move.
+   */
   bool MoveOffInterface(std::uint32_t v);
 
   /** Splits the edge from vertex i to vertex j of t if that helps. Returns false if it does not. */
@@ -140,7 +143,8 @@ private:
   Patch<3>& Target;
   const Domain<3>& Image;
   const InterfaceRules Rules;
-  const double Reach;
+  const double LargestReach;
+  double Reach = 0.0; ///< of the vertex that is moved
   SmoothingStatistics Done;
 
   VertexStar<3> Star;

@@ -46,7 +46,7 @@ class Atlases(ProgramTestCase):
 
     @unittest.skipUnless(KNEE.exists(), "the knee atlas is not beside the checkout")
     def test_every_tissue_of_the_knee(self):
-        report = self.statistics("--input", KNEE, "--delta", 2, "--output", "knee.vtu")
+        report = self.statistics("--input", KNEE, "--delta", 2, "--threads", 1, "--output", "knee.vtu")
         mesh = meshfiles.read_tetrahedra(self.folder / "knee.vtu")
         self.assertEqual(len(set(mesh.labels)), 49)
         self.assertGreater(mesh.volumes().min(), 0.0)
@@ -62,6 +62,7 @@ class Atlases(ProgramTestCase):
         self.assertEqual(report["lost_components"], [])
 
     # Components that are thin compared with delta have a few elements, so that coarse meshes are coarse; none is lost.
+    # Vertices may leave interfaces by a part of delta, so that shapes are as good as in fine meshes.
     @unittest.skipUnless(TEMPLATES.exists(), "package mricron-data is not installed")
     def test_coarse_meshes_are_coarse(self):
         for name, most, warning in (("natbrainlab", 60000, None), ("inia19-NeuroMaps", 150000, SHRUNK)):
@@ -70,6 +71,7 @@ class Atlases(ProgramTestCase):
                                          "--output", "coarse.vtu", warning=warning)
                 self.assertLess(report["elements"], most)
                 self.assertEqual((report["lost_components"], report["lost_labels"]), ([], []))
+                self.assertEqual(report["optimisation"]["poor_after"], 0)  # 4 and 10 with a quarter of a voxel
 
     # What is promised costs few elements. Slivers wedged between interfaces would be left over if refinement left them.
     @unittest.skipUnless(TEMPLATES.exists(), "package mricron-data is not installed")

@@ -26,12 +26,8 @@ constexpr double SearchPrecision = 0.02;
  * tenth of a voxel away, the cube root of it.
  */
 constexpr double SearchPrecisionOfIsosurfaces = 0.1;
-/**
- * Distance by which optimisation may move vertices off interfaces: in cube roots of the voxel volume,
- * and at most this part of the smallest spacing.
- */
+/** Distance by which optimisation may move vertices off interfaces, in deltas. */
 constexpr double OptimisationTolerance = 0.25;
-constexpr double LargestTolerance = 0.5;
 
 /** How far FitInterfaces() may move vertices along each axis, in voxels. */
 template <int D>
@@ -93,18 +89,10 @@ bool MayBeOnInterface(
 
 /** How far optimisation may have moved vertices off the interfaces. */
 template <int D>
-double ToleranceOf(const Volume<D>& image, const MeshingOptions<D>& options)
+double ToleranceOf(const Subject<D>& subject)
 {
-  if (D == 4 || !options.Optimisation.Run)
-  {
-    return 0.0;
-  }
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    least = std::min(least, image.Spacing(a));
-  }
-  return std::min(OptimisationTolerance * std::cbrt(image.VoxelVolume()), LargestTolerance * least);
+  return D == 3 && subject.Of.Options.Optimisation.Run ? OptimisationTolerance * subject.Stats.Delta
+                                                       : 0.0;
 }
 
 template <int D>
@@ -121,7 +109,7 @@ void CheckInterfaceVertices(const Subject<D>& subject, Findings& findings)
     }
   }
   const MeshingOptions<D>& options = subject.Of.Options;
-  const double tolerance = ToleranceOf(image, options);
+  const double tolerance = ToleranceOf(subject);
   const double precision = (image.Surface ? SearchPrecisionOfIsosurfaces : SearchPrecision) +
     (subject.IsFitted() ? FitTolerance<D> : 0.0) +
     (D == 4 && options.Optimisation.Run ? MoveTolerance : 0.0);
@@ -164,7 +152,7 @@ void CheckExtent(const Subject<D>& subject, Findings& findings)
         high[a] = std::max(high[a], voxel[a]);
       }
     });
-  const double tolerance = ToleranceOf(image, subject.Of.Options);
+  const double tolerance = ToleranceOf(subject);
   std::uint64_t outside = 0;
   for (const Vector<D>& p : subject.Mesh.Points)
   {

@@ -377,12 +377,13 @@ TEST(StressChecks, ExcuseWhatOptimisationMayMove)
   auto& points = moved.Mesh.Points;
   const auto last = std::max_element(
     points.begin(), points.end(), [](const auto& a, const auto& b) { return a[0] < b[0]; });
-  (*last)[0] = 13.2; // voxels of the third box end at 12; vertices may be moved by a quarter
+  const double end = 13.0;                    // voxels of the third box end at 12
+  (*last)[0] = end + 0.2 * moved.Stats.Delta; // vertices may be moved by a quarter of delta
   EXPECT_FALSE(moved.Check().Has("outside"));
-  (*last)[0] = 13.3;
+  (*last)[0] = end + 0.3 * moved.Stats.Delta;
   EXPECT_TRUE(moved.Check().Has("outside"));
   moved.Of.Options.Optimisation.Run = false;
-  (*last)[0] = 13.2;
+  (*last)[0] = end + 0.2 * moved.Stats.Delta;
   EXPECT_TRUE(moved.Check().Has("outside"));
 }
 
