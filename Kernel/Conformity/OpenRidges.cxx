@@ -318,7 +318,8 @@ private:
       {
         continue;
       }
-      next.MakesContact = this->MakesContact(ring, next.How);
+      next.MakesContact = this->Context.Contacts &&
+        (this->MakesContact(ring, next.How) || this->Joins(ring, next.How));
       next.DentsBorder = this->DentsBorder(ring, next.How);
       for (const double width : Widths)
       {
@@ -364,7 +365,7 @@ private:
   /** Whether the filling gets beside a label that its own does not touch there in the image. */
   bool MakesContact(const Ring<D>& ring, const Filling& filling) const
   {
-    for (std::size_t k = 0; this->Context.Contacts && k < ring.Sectors.size(); ++k)
+    for (std::size_t k = 0; k < ring.Sectors.size(); ++k)
     {
       if (filling.Gives[k] == 0)
       {
@@ -390,6 +391,34 @@ private:
       {
         return true;
       }
+    }
+    return false;
+  }
+
+  /** Whether the filling joins sectors of its label that the image does not connect. */
+  bool Joins(const Ring<D>& ring, const Filling& filling) const
+  {
+    const auto centroidOf = [&](const Sector<D>& sector)
+    {
+      std::array<const Point<D>*, N> points;
+      for (unsigned i = 0; i < N; ++i)
+      {
+        points[i] = &this->Position(sector.Whole[i]);
+      }
+      return Centroid(points);
+    };
+    const Sector<D>* last = nullptr; // that has the label; null: another one follows it
+    for (std::size_t k = 0; k < 2 * ring.Sectors.size(); ++k) // beyond the first one again
+    {
+      const std::size_t at = k % ring.Sectors.size();
+      const Sector<D>& sector = ring.Sectors[at];
+      const bool isOf = sector.Label == filling.Label && sector.Owner != None;
+      if (isOf && last && filling.Gives[ring.Previous(at)] != 0 &&
+        !this->Context.Contacts->AreConnected(centroidOf(*last), centroidOf(sector), filling.Label))
+      {
+        return true;
+      }
+      last = isOf ? &sector : filling.Gives[at] != 0 ? last : nullptr;
     }
     return false;
   }

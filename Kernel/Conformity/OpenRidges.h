@@ -38,7 +38,7 @@ struct OpeningContext
   std::span<const Point<D>> Positions; ///< of each vertex id; empty: those of the triangulation
   /** 4D: pieces with a circumradius above its element sizes count as bad shapes. Null: no bound. */
   const SizingField<D>* Sizing = nullptr;
-  /** Fillings that make contacts which the image does not have are the last choice. Null: they are not. */
+  /** Fillings that make contacts or connections which the image does not have are the last choice. Null: they are not. */
   const LabelContacts<D>* Contacts = nullptr;
   /** Whether a simplex must keep its label at each ridge. Empty: none must. */
   std::function<bool(SimplexId)> Keeps = {};
@@ -80,8 +80,8 @@ struct OpeningContext
  * of its ridges. New vertices lie at one of a few fixed positions in their facet or
  * simplex, so the shapes of the simplices bound the shapes of the pieces. Of all possible cuts, the
  * one with the best shapes in the mesh is taken. A cut that makes dents or bulges in faces where the
- * image cuts the object is taken only if there is no other; so is one that makes labels touch which do not
- * touch there in the image (OpeningContext::Contacts).
+ * image cuts the object is taken only if there is no other; so is one that makes labels touch, or
+ * connects parts of one, where the image does not (OpeningContext::Contacts).
  *
  * The triangulation is not changed, and no thread may change it during the call. Takes time linear
  * in the number of ridges, if few simplices share one. Ridges with many runs around them take
