@@ -60,10 +60,8 @@ std::optional<HiddenLayer<D>> HiddenLayerFinder<D>::Find(SimplexId s, unsigned i
   const Point<D> from = this->Mesh.GetCircumball(s).Center;
   const Point<D> to = this->Mesh.GetCircumball(n).Center;
   const auto runs = this->Contacts.LabelsAlong(from, to);
-  const std::size_t ends =
-    a == b ? 1 : 0;                // the first and the last run are no layers inside of a label
   std::size_t layer = runs.size(); // the longest one
-  for (std::size_t k = ends; k + ends < runs.size(); ++k)
+  for (std::size_t k = 0; k < runs.size(); ++k)
   {
     if (runs[k].Label != a && runs[k].Label != b &&
       (layer == runs.size() || runs[k].End - runs[k].Begin > runs[layer].End - runs[layer].Begin))
@@ -80,9 +78,13 @@ std::optional<HiddenLayer<D>> HiddenLayerFinder<D>::Find(SimplexId s, unsigned i
     const Point<D> centroid = Centroid(FacetPoints(this->Mesh, s, i));
     return HiddenLayer<D>{ s, i, a, { centroid, centroid } };
   }
-  const Point<D> before = Interpolate(from, to, runs[layer > 0 ? layer - 1 : 0].End);
-  const Point<D> after = Interpolate(from, to, runs[std::min(layer + 1, runs.size() - 1)].Begin);
-  if (a == b && this->Contacts.AreConnected(before, after, a))
+  using Through = typename LabelContacts<D>::Through;
+  const Point<D> before = Interpolate(from, to, layer > 0 ? runs[layer - 1].End : 0.0);
+  const Point<D> after =
+    Interpolate(from, to, layer + 1 < runs.size() ? runs[layer + 1].Begin : 1.0);
+  const bool isAtEnd = layer == 0 || layer + 1 == runs.size();
+  if (a == b &&
+    this->Contacts.AreConnected(before, after, a, isAtEnd ? Through::Corners : Through::Faces))
   {
     return std::nullopt;
   }

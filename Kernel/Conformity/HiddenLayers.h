@@ -45,7 +45,8 @@ struct HiddenLayer
  * hides a layer if
  * - its two labels do not touch near it in the image (LabelContacts::TouchNear), or
  * - it has one label on both sides, which the image does not connect around the layer
- *   (LabelContacts::AreConnected).
+ *   (LabelContacts::AreConnected). If a circumcentre is in a voxel of the layer, edges and corners of voxels
+ *   connect, too: there the label field is smoother than the voxels.
  *
  * Labels that were given by a repair may hide layers, too; dual edges need not pass these.
  *

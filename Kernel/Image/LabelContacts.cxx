@@ -212,46 +212,43 @@ bool LabelContacts<D>::TouchInBox(const Index& low, const Index& high, LabelId a
 }
 
 //------------------------------------------------------------------------------------------------
-/** Replaces a voxel without a label by one with it beside it, if there is one. */
 template <int D>
-bool LabelContacts<D>::FindVoxelOf(LabelId label, Index& voxel) const
+auto LabelContacts<D>::VoxelOf(LabelId label, const Point<D>& p) const -> std::optional<Index>
 {
-  if (this->Image.At(voxel) == label)
+  const Index centre = this->Image.VoxelAt(p);
+  if (this->Image.At(centre) == label)
   {
-    return true;
+    return centre;
   }
-  Index low = voxel;
-  Index high = voxel;
+  Index low = centre;
+  Index high = centre;
   for (std::size_t k = 0; k < D; ++k)
   {
     --low[k];
     ++high[k];
   }
-  const Index centre = voxel;
-  std::int64_t nearest = std::numeric_limits<std::int64_t>::max();
+  std::optional<Index> nearest;
+  double least2 = std::numeric_limits<double>::infinity();
   ForEachIndex(low, high,
-    [&](const Index& at)
+    [&](const Index& voxel)
     {
-      std::int64_t steps = 0;
-      for (std::size_t k = 0; k < D; ++k)
+      const double distance2 = Distance2(this->Image.CentreOf(voxel), p);
+      if (distance2 < least2 && this->Image.At(voxel) == label)
       {
-        steps += std::abs(at[k] - centre[k]);
-      }
-      if (steps < nearest && this->Image.At(at) == label)
-      {
-        nearest = steps;
-        voxel = at;
+        least2 = distance2;
+        nearest = voxel;
       }
     });
-  return nearest != std::numeric_limits<std::int64_t>::max();
+  return nearest;
 }
 
 template <int D>
-bool LabelContacts<D>::AreConnected(const Point<D>& p, const Point<D>& q, LabelId label) const
+bool LabelContacts<D>::AreConnected(
+  const Point<D>& p, const Point<D>& q, LabelId label, Through through) const
 {
-  Index from = this->Image.VoxelAt(p);
-  Index to = this->Image.VoxelAt(q);
-  if (!this->FindVoxelOf(label, from) || !this->FindVoxelOf(label, to) || from == to)
+  const std::optional<Index> from = this->VoxelOf(label, p);
+  const std::optional<Index> to = this->VoxelOf(label, q);
+  if (!from || !to || *from == *to)
   {
     return true;
   }
@@ -262,23 +259,26 @@ bool LabelContacts<D>::AreConnected(const Point<D>& p, const Point<D>& q, LabelI
     for (std::size_t k = 0; k < D; ++k)
     {
       const auto by = static_cast<std::int64_t>(detour * this->Diagonal * this->VoxelsPerLength[k]);
-      low[k] = std::min(from[k], to[k]) - by;
-      high[k] = std::max(from[k], to[k]) + by;
+      low[k] = std::min((*from)[k], (*to)[k]) - by;
+      high[k] = std::max((*from)[k], (*to)[k]) + by;
     }
     VoxelSets<D> sets(low, high);
     const Bits all = sets.VoxelsOf(this->Image, std::array{ label })[0];
-    Bits reached = sets.SetOf(from);
+    Bits reached = sets.SetOf(*from);
     Bits before;
-    while (reached != before && !reached.test(sets.BitOf(to)))
+    while (reached != before && !reached.test(sets.BitOf(*to)))
     {
       before = reached;
       for (std::size_t k = 0; k < D; ++k)
       {
         sets.Widen(reached, k);
-        reached &= all;
+        if (through == Through::Faces || k + 1 == D)
+        {
+          reached &= all;
+        }
       }
     }
-    if (reached.test(sets.BitOf(to)))
+    if (reached.test(sets.BitOf(*to)))
     {
       return true;
     }

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace voxplex
@@ -51,11 +52,19 @@ public:
   bool TouchNear(const std::array<const Point<D>*, static_cast<std::size_t>(D)>& corners, LabelId a,
     LabelId b) const;
 
+  /** What two voxels share that are beside each other. */
+  enum class Through
+  {
+    Faces,
+    Corners ///< and edges and faces
+  };
+
   /**
    * Whether a label connects two places within a few voxels of them. Places that have no voxel of
    * the label beside them count as connected: nothing is known about them.
    */
-  bool AreConnected(const Point<D>& p, const Point<D>& q, LabelId label) const;
+  bool AreConnected(
+    const Point<D>& p, const Point<D>& q, LabelId label, Through through = Through::Faces) const;
 
   /** A part of a line in voxels of one label: those nearest to it. */
   struct Run
@@ -77,8 +86,9 @@ private:
   /** How far beyond both places a connection may run, in diagonals of a voxel. */
   static constexpr double Detour = 3.0;
 
+  /** The voxel of a label nearest to a point, if there is one in or beside the point's voxel. */
+  std::optional<Index> VoxelOf(LabelId label, const Point<D>& p) const;
   bool TouchInBox(const Index& low, const Index& high, LabelId a, LabelId b) const;
-  bool FindVoxelOf(LabelId label, Index& voxel) const;
 
   const LabelImage<D>& Image;
   const Point<D> VoxelsPerLength;

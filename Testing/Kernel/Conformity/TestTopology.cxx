@@ -175,6 +175,21 @@ TEST(Topology, AGapOfAVoxelSeparatesComponents)
 }
 
 // Without repairs and finer sampling nothing keeps them; then they are counted.
+// Where circumcentres lie in the gap's voxels, the label field being smoother, and where ridges were opened, the two
+// parts were one piece.
+TEST(Topology, AWideGapInALabelIsKept)
+{
+  const LabelImage<3> image = ImageOf([](int x, int y, int z)
+    { return IsIn(y, 3, 20) && IsIn(z, 4, 20) && IsIn(x, 1, 22) && x != 12 ? 1 : 0; });
+  for (const double delta : { 1.3, 1.4, 1.5, 1.6, 1.7, 2.0, 2.2, 2.5, 3.0, 3.5, 4.0 })
+  {
+    SCOPED_TRACE(delta);
+    const ComponentStatistics& counted = Mesh(image, delta, true).Statistics;
+    EXPECT_EQ(counted.Found, 2u);
+    EXPECT_TRUE(counted.United.empty() && counted.Broken.empty() && counted.Contacts.empty());
+  }
+}
+
 TEST(Topology, WhatIsNotKeptIsCounted)
 {
   const Result glued =
@@ -259,4 +274,18 @@ TEST(LabelContacts, ConnectThroughFacesNearBy)
                                                                        : 0; });
   EXPECT_TRUE(LabelContacts<3>(rim).AreConnected({ 11.0, 12.0, 9.0 }, { 13.0, 12.0, 9.0 }, 1));
   EXPECT_FALSE(LabelContacts<3>(rim).AreConnected({ 11.0, 20.0, 9.0 }, { 13.0, 20.0, 9.0 }, 1));
+  // A point in the wall is on the side of the nearest voxel.
+  EXPECT_FALSE(LabelContacts<3>(wall).AreConnected({ 11.7, 9.0, 9.0 }, { 12.3, 9.0, 9.0 }, 1));
+}
+
+TEST(LabelContacts, ConnectThroughCornersIfAsked)
+{
+  using Through = LabelContacts<3>::Through;
+  const LabelImage<3> image = ImageOf(
+    [](int x, int y, int z) { return (x < 12 && y < 12) || (x > 11 && y > 11) ? 1 : z / 99; });
+  const LabelContacts<3> contacts(image);
+  const Point<3> p{ 11.0, 11.0, 9.0 };
+  const Point<3> q{ 12.0, 12.0, 9.0 };
+  EXPECT_FALSE(contacts.AreConnected(p, q, 1));
+  EXPECT_TRUE(contacts.AreConnected(p, q, 1, Through::Corners));
 }
