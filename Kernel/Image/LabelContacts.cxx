@@ -4,8 +4,6 @@
 
 #include "Base/GridIndex.h"
 
-#include <boost/dynamic_bitset.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +23,30 @@ namespace
  */
 constexpr double FacetReach = 0.5;
 
-using Bits = boost::dynamic_bitset<std::uint64_t>;
+/** A bit for each voxel of a box. Most boxes need no memory from the heap. */
+constexpr std::size_t BitsOfWord = 64;
+using Bits = boost::container::small_vector<std::uint64_t, 64>;
+
+bool Has(const Bits& set, std::size_t bit)
+{
+  return (set[bit / BitsOfWord] >> bit % BitsOfWord & 1) != 0;
+}
+
+void Add(Bits& set, std::size_t bit)
+{
+  set[bit / BitsOfWord] |= std::uint64_t{ 1 } << bit % BitsOfWord;
+}
+
+/** Keeps what is in another set, too. @return whether that is anything */
+bool Intersect(Bits& set, const Bits& other)
+{
+  std::uint64_t any = 0;
+  for (std::size_t w = 0; w < set.size(); ++w)
+  {
+    any |= set[w] &= other[w];
+  }
+  return any != 0;
+}
 
 /**
  * @brief Sets of the voxels of a box. The bits are in the order of indices, with a free one after each line
@@ -47,7 +68,7 @@ public:
       this->Strides[k] = stride;
       stride *= static_cast<std::size_t>(high[k] - low[k] + 2);
     }
-    this->Size = stride;
+    this->Words = stride / BitsOfWord + 1;
   }
 
   std::size_t BitOf(const Index& voxel) const
@@ -66,7 +87,7 @@ public:
     const LabelImage<D>& image, const std::array<LabelId, N>& labels) const
   {
     std::array<Bits, N> found;
-    found.fill(Bits(this->Size));
+    found.fill(Bits(this->Words));
     const auto end = static_cast<std::size_t>(this->High[0] + 1);
     Index last = this->High;
     last[0] = this->Low[0];
@@ -82,7 +103,7 @@ public:
           {
             if (label == labels[k])
             {
-              found[k].set(bit);
+              Add(found[k], bit);
             }
           }
         }
@@ -92,29 +113,34 @@ public:
 
   Bits SetOf(const Index& voxel) const
   {
-    Bits set(this->Size);
-    set.set(this->BitOf(voxel));
+    Bits set(this->Words);
+    Add(set, this->BitOf(voxel));
     return set;
   }
 
   /** Adds the voxels beside those of a set along an axis. */
-  void Widen(Bits& set, std::size_t axis)
+  void Widen(Bits& set, std::size_t axis) const
   {
-    this->Before = set;
-    this->Before <<= this->Strides[axis];
-    this->After = set;
-    this->After >>= this->Strides[axis];
-    set |= this->Before;
-    set |= this->After;
+    const std::size_t words = this->Strides[axis] / BitsOfWord;
+    const std::size_t bits = this->Strides[axis] % BitsOfWord;
+    const Bits before = set;
+    const auto at = [&](std::size_t w) { return w < before.size() ? before[w] : 0; };
+    for (std::size_t w = 0; w < set.size(); ++w)
+    {
+      set[w] |= at(w - words) << bits | at(w + words) >> bits;
+      if (bits != 0)
+      {
+        set[w] |=
+          at(w - words - 1) >> (BitsOfWord - bits) | at(w + words + 1) << (BitsOfWord - bits);
+      }
+    }
   }
 
 private:
   const Index Low;
   const Index High; ///< is in the box
   std::array<std::size_t, static_cast<std::size_t>(D)> Strides;
-  std::size_t Size;
-  Bits Before; ///< kept between calls only for their memory
-  Bits After;
+  std::size_t Words;
 };
 
 } // namespace
@@ -202,13 +228,13 @@ bool LabelContacts<D>::TouchNear(
 template <int D>
 bool LabelContacts<D>::TouchInBox(const Index& low, const Index& high, LabelId a, LabelId b) const
 {
-  VoxelSets<D> sets(low, high);
+  const VoxelSets<D> sets(low, high);
   auto [ofA, nearB] = sets.VoxelsOf(this->Image, std::array{ a, b });
   for (std::size_t k = 0; k < D; ++k)
   {
     sets.Widen(nearB, k);
   }
-  return ofA.intersects(nearB);
+  return Intersect(nearB, ofA);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -262,11 +288,11 @@ bool LabelContacts<D>::AreConnected(
       low[k] = std::min((*from)[k], (*to)[k]) - by;
       high[k] = std::max((*from)[k], (*to)[k]) + by;
     }
-    VoxelSets<D> sets(low, high);
+    const VoxelSets<D> sets(low, high);
     const Bits all = sets.VoxelsOf(this->Image, std::array{ label })[0];
     Bits reached = sets.SetOf(*from);
     Bits before;
-    while (reached != before && !reached.test(sets.BitOf(*to)))
+    while (reached != before && !Has(reached, sets.BitOf(*to)))
     {
       before = reached;
       for (std::size_t k = 0; k < D; ++k)
@@ -274,11 +300,11 @@ bool LabelContacts<D>::AreConnected(
         sets.Widen(reached, k);
         if (through == Through::Faces || k + 1 == D)
         {
-          reached &= all;
+          Intersect(reached, all);
         }
       }
     }
-    if (reached.test(sets.BitOf(*to)))
+    if (Has(reached, sets.BitOf(*to)))
     {
       return true;
     }
