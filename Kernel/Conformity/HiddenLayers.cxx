@@ -79,10 +79,18 @@ std::optional<HiddenLayer<D>> HiddenLayerFinder<D>::Find(SimplexId s, unsigned i
     return HiddenLayer<D>{ s, i, a, { centroid, centroid } };
   }
   using Through = typename LabelContacts<D>::Through;
-  const Point<D> before = Interpolate(from, to, layer > 0 ? runs[layer - 1].End : 0.0);
+  // Between two labels, a layer at an end is a corner of its voxels only.
+  const double begin = a == b ? runs[layer].Begin : runs[layer].End;
+  const double end = a == b ? runs[layer].End : runs[layer].Begin;
+  const Point<D> before = Interpolate(from, to, layer > 0 ? runs[layer - 1].End : begin);
   const Point<D> after =
-    Interpolate(from, to, layer + 1 < runs.size() ? runs[layer + 1].Begin : 1.0);
+    Interpolate(from, to, layer + 1 < runs.size() ? runs[layer + 1].Begin : end);
   const bool isAtEnd = layer == 0 || layer + 1 == runs.size();
+  if (isAtEnd && a == b &&
+    this->Surfaces.Label(Interpolate(before, after, 0.5)) != runs[layer].Label)
+  {
+    return std::nullopt; // no sample can show it
+  }
   if (a == b &&
     this->Contacts.AreConnected(before, after, a, isAtEnd ? Through::Corners : Through::Faces))
   {
