@@ -86,31 +86,32 @@ std::optional<HiddenLayer<D>> HiddenLayerFinder<D>::Find(SimplexId s, unsigned i
   const Point<D> after =
     Interpolate(from, to, layer + 1 < runs.size() ? runs[layer + 1].Begin : end);
   const bool isAtEnd = layer == 0 || layer + 1 == runs.size();
-  if (isAtEnd && a == b &&
-    this->Surfaces.Label(Interpolate(before, after, 0.5)) != runs[layer].Label)
-  {
-    return std::nullopt; // no sample can show it
-  }
   if (a == b &&
     this->Contacts.AreConnected(before, after, a, isAtEnd ? Through::Corners : Through::Faces))
   {
     return std::nullopt;
   }
+  const std::optional<Point<D>> first = this->CrossingAt(before, after, runs[layer].Label);
+  const std::optional<Point<D>> second = this->CrossingAt(after, before, runs[layer].Label);
+  if (a == b && isAtEnd && (!first || !second))
+  {
+    return std::nullopt; // no sample can show it
+  }
+  const auto& bounds = this->Surfaces.Bounds();
   return HiddenLayer<D>{ s, i, runs[layer].Label,
-    { this->CrossingAt(before, after, runs[layer].Label),
-      this->CrossingAt(after, before, runs[layer].Label) } };
+    { bounds.Clamp(first.value_or(before)), bounds.Clamp(second.value_or(after)) } };
 }
 
-/** Where a line from the middle of a layer leaves it, towards an end of it; beyond a flat end, its projection. */
+/** Where a line from the middle of a layer leaves it, towards an end of it, in the label field. */
 template <int D>
-Point<D> HiddenLayerFinder<D>::CrossingAt(
+std::optional<Point<D>> HiddenLayerFinder<D>::CrossingAt(
   const Point<D>& end, const Point<D>& other, LabelId layer) const
 {
   const Point<D> middle = Interpolate(end, other, 0.5);
   Point<D> z;
   const bool isFound = this->Surfaces.Label(middle) == layer &&
     this->Surfaces.FirstCrossing(middle, layer, Interpolate(middle, end, 2.0), z);
-  return this->Surfaces.Bounds().Clamp(isFound ? z : end);
+  return isFound ? std::optional<Point<D>>(z) : std::nullopt;
 }
 
 //------------------------------------------------------------------------------------------------

@@ -27,7 +27,7 @@ struct HiddenLayer
   unsigned Facet; ///< of the cell; the other simplex is beside it
   /** Of the layer. If the dual edge of the facet does not pass one, the label of the cell. */
   LabelId Label;
-  /** Where the dual edge enters and leaves the layer; if it passes none, the facet's centroid, twice. */
+  /** Where the dual edge enters and leaves the layer; within the domain's box. If it passes none, the facet's centroid, twice. */
   std::array<Point<D>, 2> Ends;
 };
 
@@ -74,7 +74,8 @@ public:
   bool IsFalseContact(SimplexId s, unsigned i, LabelId a, LabelId b) const;
 
 private:
-  Point<D> CrossingAt(const Point<D>& end, const Point<D>& other, LabelId layer) const;
+  std::optional<Point<D>> CrossingAt(
+    const Point<D>& end, const Point<D>& other, LabelId layer) const;
 
   const Triangulation<D>& Mesh;
   const std::span<const LabelId> Labels;

@@ -174,7 +174,6 @@ TEST(Topology, AGapOfAVoxelSeparatesComponents)
   EXPECT_EQ(CountFragments(result.Mesh).at(1), 2u);
 }
 
-// Without repairs and finer sampling nothing keeps them; then they are counted.
 // Where circumcentres lie in the gap's voxels, the label field being smoother, and where ridges were opened, the two
 // parts were one piece.
 TEST(Topology, AWideGapInALabelIsKept)
@@ -190,6 +189,7 @@ TEST(Topology, AWideGapInALabelIsKept)
   }
 }
 
+// Without repairs and finer sampling nothing keeps them; then they are counted.
 TEST(Topology, WhatIsNotKeptIsCounted)
 {
   const Result glued =
