@@ -4,11 +4,9 @@
 
 #include "Conformity/ChangeRules.h"
 #include "Conformity/OrderedChanges.h"
-#include "Geometry/SimplexQuality.h"
 #include "Parallel/ParallelCollect.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <set>
@@ -184,7 +182,7 @@ public:
         {
           continue; // each simplex is changed once at most, so that passes end
         }
-        const double volume = this->VolumeOf(t);
+        const double volume = this->Near.VolumeOf({ t });
         for (const LabelId label : this->LabelsFor(t, layer))
         {
           repair::Change change{ { t }, label };
@@ -229,11 +227,6 @@ private:
     }
     labels.erase(this->Labels[t]);
     return labels;
-  }
-
-  double VolumeOf(SimplexId t) const
-  {
-    return std::abs(SignedVolume<D>(this->Mesh.Points(this->Mesh.GetSimplex(t).V).data()));
   }
 
   const Triangulation<D>& Mesh;

@@ -97,11 +97,7 @@ private:
     const auto& piece = this->Pieces.All()[p];
     std::erase_if(of, [&](SimplexId s) { return this->Labels[s] != piece.Label; });
     const bool isWanted = this->Of.Wanted[piece.Component];
-    double volume = 0.0;
-    for (const SimplexId s : of)
-    {
-      volume += std::abs(SignedVolume<D>(this->Mesh.Points(this->Mesh.GetSimplex(s).V).data()));
-    }
+    const double volume = this->Near.VolumeOf(of);
     const bool mayBeGap = isWanted && volume >= this->Gaps.Smallest;
     bool isDone = of.empty();
     if (isWanted && !isDone)

@@ -10,11 +10,13 @@
 
 #include "Delaunay/Triangulation.h"
 #include "Delaunay/VertexStar.h"
+#include "Geometry/SimplexQuality.h"
 
 #include <boost/container/small_vector.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
@@ -67,6 +69,15 @@ public:
   /** Whether a vertex had simplices of different labels before any change. */
   bool IsOnInterface(VertexId v) const { return this->Source.GetVertex(v).OnInterface; }
   voxplex::Circumball<D> Circumball(SimplexId t) const { return this->Source.GetCircumball(t); }
+  double VolumeOf(const std::vector<SimplexId>& cells) const
+  {
+    double volume = 0.0;
+    for (const SimplexId t : cells)
+    {
+      volume += std::abs(SignedVolume<D>(this->Points(this->VerticesOf(t)).data()));
+    }
+    return volume;
+  }
 
   /** The star of a vertex. Ascending, so that results do not depend on where a search begins. */
   const std::vector<SimplexId>& StarOf(VertexId v) const

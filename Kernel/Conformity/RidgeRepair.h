@@ -9,11 +9,9 @@
 
 #include "Conformity/ChangeRules.h"
 #include "Conformity/OrderedChanges.h"
-#include "Geometry/SimplexQuality.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <numbers>
@@ -118,7 +116,7 @@ private:
     for (Change& change : changes)
     {
       const int gain = this->GainOf(change, rings);
-      const double volume = this->VolumeOf(change);
+      const double volume = this->Near.VolumeOf(change.Cells);
       const bool dents = this->Rules.Dents(change);
       const bool isBetter = dents != bestDents ? bestDents
         : gain != bestGain                     ? gain > bestGain
@@ -259,16 +257,6 @@ private:
       isSame = isSame && a[k] == b[k];
     }
     return isSame;
-  }
-
-  double VolumeOf(const Change& change) const
-  {
-    double volume = 0.0;
-    for (const SimplexId t : change.Cells)
-    {
-      volume += std::abs(SignedVolume<D>(this->Near.Points(this->Near.VerticesOf(t)).data()));
-    }
-    return volume;
   }
 
   const std::span<const LabelId> Labels; ///< by simplex id
