@@ -251,8 +251,11 @@ TEST(SpaceTimeRefinement, PickingRegionsAtFlatEndsAndWithThreads)
   {
     SCOPED_TRACE(std::to_string(threads) + " threads");
     const SimplexMesh<4> mesh = MeshWithPicking(image, Sanitized ? 3.5 : 2.5, 0, threads);
-    // With threads, 1 % of the meshes have a free vertex in their boundary, in 3 to 11 of some 2,150 facets.
+    // The facet rule leaves a free vertex where its point would be too close to a feature vertex: in 1 % of these
+    // meshes, with any seed and number of threads, one, with 3 to 11 of some 2,150 facets.
     ExpectGood(mesh, image, { 2.0, threads == 1 ? 0.0 : 0.01, true });
+    EXPECT_LE(
+      VerticesOffInterface(mesh, ImageDomain<4>(image, 1.0)).size(), threads == 1 ? 0u : 1u);
     EXPECT_GE(SmallestNormalizedVolume(mesh), SliverOptions().VolumeBound);
   }
 }

@@ -275,21 +275,31 @@ inline bool IsOnInterface(const LabelField<4>& field, const Point<4>& p)
   return field.Margin(p, field.Label(p)) < 0.05;
 }
 
+/** The vertices of lateral facets that are on no interface. */
+inline std::set<std::uint32_t> VerticesOffInterface(
+  const SimplexMesh<4>& mesh, const ImageDomain<4>& domain)
+{
+  std::set<std::uint32_t> off;
+  for (const std::size_t k : LateralFacets(mesh, domain))
+  {
+    off.insert(mesh.Facets[k].begin(), mesh.Facets[k].end());
+  }
+  std::erase_if(
+    off, [&](std::uint32_t v) { return IsOnInterface(domain.GetLabelField(), mesh.Points[v]); });
+  return off;
+}
+
 /** Lateral facets with a vertex that is on no interface. */
 inline std::size_t CountFacetsOffInterface(const SimplexMesh<4>& mesh, const ImageDomain<4>& domain)
 {
-  std::vector<char> on(mesh.Points.size(), 0);
-  for (std::size_t v = 0; v < on.size(); ++v)
-  {
-    on[v] = IsOnInterface(domain.GetLabelField(), mesh.Points[v]) ? 1 : 0;
-  }
-  std::size_t off = 0;
-  for (const std::size_t k : LateralFacets(mesh, domain))
-  {
-    const Tetrahedron& f = mesh.Facets[k];
-    off += std::all_of(f.begin(), f.end(), [&](std::uint32_t v) { return on[v] != 0; }) ? 0 : 1;
-  }
-  return off;
+  const std::set<std::uint32_t> vertices = VerticesOffInterface(mesh, domain);
+  const std::vector<std::size_t> facets = LateralFacets(mesh, domain);
+  return static_cast<std::size_t>(std::count_if(facets.begin(), facets.end(),
+    [&](std::size_t k)
+    {
+      const Tetrahedron& f = mesh.Facets[k];
+      return std::any_of(f.begin(), f.end(), [&](std::uint32_t v) { return vertices.contains(v); });
+    }));
 }
 
 /** 3D volume of each label of a frame of an image. */
