@@ -138,7 +138,7 @@ auto ManifoldLabeller<D>::TakeLabels(SimplexLabels& labels) const -> Simplices
     this->Stop);
 }
 
-/** Returns the simplices that are new, were examined again or have another label than before. */
+/** Returns the simplices that have another label than TakeLabels() gave them. */
 template <int D>
 auto ManifoldLabeller<D>::KeepLabels(const ManifoldLabels<D>& made) -> Simplices
 {
@@ -150,11 +150,13 @@ auto ManifoldLabeller<D>::KeepLabels(const ManifoldLabels<D>& made) -> Simplices
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
         SimplexState& state = this->Source.State(s);
-        if (this->Source.IsAlive(s) && !(state.Examined && state.Given == labels[s]))
+        if (this->Source.IsAlive(s))
         {
-          state.Given = labels[s];
+          if (std::exchange(state.Given, labels[s]) != labels[s])
+          {
+            some.push_back(s);
+          }
           state.Examined = true;
-          some.push_back(s);
         }
       }
     },
