@@ -7,12 +7,13 @@
 #ifndef voxplex_RefinerBase_h
 #define voxplex_RefinerBase_h
 
-#include "Parallel/ParallelCollect.h"
 #include "Refinement/RefinementContext.h"
 #include "Sizing/LoweredCells.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -106,8 +107,11 @@ protected:
     return simplices;
   }
 
-  /** The simplices whose circumball reaches a lowered bound, ascending. */
-  std::vector<SimplexId> FindReaching() const
+  /**
+   * The simplices whose circumball reaches a lowered bound, ascending. Those of a cell hang together
+   * through facets: they are found from the one at a point of it.
+   */
+  std::vector<SimplexId> FindReaching()
   {
     const LocalDelta<D>* const local = this->Context.Sizing.Sources().Local;
     if (!local || !local->HasLowered())
@@ -116,23 +120,45 @@ protected:
     }
     const Triangulation<D>& mesh = this->Context.Mesh;
     const LoweredCells<D> lowered(*local);
-    constexpr std::size_t grain = 8192;
-    return ParallelCollect<SimplexId>(mesh.SimplexIdEnd(), grain,
-      static_cast<unsigned>(this->Workers.size()),
-      [&](std::size_t first, std::size_t last, std::vector<SimplexId>& reaching)
+    std::vector<bool> isSeen(mesh.SimplexIdEnd());
+    std::vector<SimplexId> reaching;
+    const auto look = [&](SimplexId s)
+    {
+      if (s != None && !isSeen[s])
       {
-        for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+        isSeen[s] = true;
+        const Circumball<D> ball = mesh.GetCircumball(s);
+        if (lowered.AnyWithin(ball.Center, std::sqrt(ball.Radius2)))
         {
-          if (mesh.State(s).NearSurface && mesh.IsAlive(s))
-          {
-            const Circumball<D> ball = mesh.GetCircumball(s);
-            if (lowered.AnyWithin(ball.Center, std::sqrt(ball.Radius2)))
-            {
-              reaching.push_back(s);
-            }
-          }
+          reaching.push_back(s);
         }
-      });
+      }
+    };
+    SimplexId near = mesh.FirstAlive();
+    for (const auto& cell : local->Lowered())
+    {
+      for (const double fraction : { 0.5, 0.4, 0.6 }) // there may be a vertex
+      {
+        const Point<D> p = mesh.GetBox().Clamp(local->PointIn(cell, fraction));
+        const SimplexId at = mesh.FindConflict(this->Workers[0]->Kernel, p, near);
+        if (at != None)
+        {
+          near = at;
+          look(at);
+          break;
+        }
+      }
+    }
+    for (std::size_t k = 0; k < reaching.size(); ++k)
+    {
+      for (const SimplexId s : mesh.GetSimplex(reaching[k]).N)
+      {
+        look(s);
+      }
+    }
+    std::erase_if(reaching, [&](SimplexId s) { return !mesh.State(s).NearSurface; });
+    std::sort(reaching.begin(), reaching.end());
+    return reaching;
   }
 
   /** Pushes the simplices that may be poor to a worker's list. */

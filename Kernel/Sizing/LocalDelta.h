@@ -173,8 +173,17 @@ public:
     return cell;
   }
 
-  /** GridGeometry::VoxelsPerLength() of the image. */
-  const Point<D>& GetVoxelsPerLength() const { return this->VoxelsPerLength; }
+  /** A point in a cell. @param fraction of the way through the cell, along each axis */
+  Point<D> PointIn(const Index& cell, double fraction) const
+  {
+    Point<D> index;
+    for (std::size_t a = 0; a < D; ++a)
+    {
+      index[a] = static_cast<double>(this->Origin[a]) - 0.5 +
+        (static_cast<double>(cell[a]) + fraction) * Cell;
+    }
+    return this->Grid.ToFrame(index);
+  }
 
   void ForgetLowered() { this->LoweredList.clear(); }
 
