@@ -76,16 +76,17 @@ void ComparePieces(const SimplexMesh<D>& mesh, const Components<D>& components,
   const LabelImage<D>& image, const std::vector<bool>& wanted, ComponentStatistics& statistics,
   const std::stop_token& stop)
 {
-  const ComponentPieces<D> pieces(
-    MeshElements<D>(mesh, image), FindPieces<D>(mesh, stop), components, image, stop);
+  const MeshElements<D> elements(mesh, image);
+  const ComponentPieces<D> pieces(elements, FindPieces<D>(mesh, stop), components, image, stop);
   const double voxel = image.Grid().VoxelVolume();
-  std::map<std::uint32_t, std::vector<double>> volumes; // of the pieces of each component
+  std::map<std::uint32_t, std::map<std::uint32_t, double>> volumes; // of components' pieces
   statistics.United.clear();
-  for (const auto& piece : pieces.All())
+  for (std::uint32_t p = 0; p < pieces.All().size(); ++p)
   {
+    const auto& piece = pieces.All()[p];
     if (piece.Component != None && wanted[piece.Component])
     {
-      volumes[piece.Component].push_back(piece.Volume);
+      volumes[piece.Component][p] = 0.0;
     }
     std::vector<std::uint32_t> all; // components that the piece has a share of
     std::vector<std::uint32_t> held;
@@ -123,19 +124,28 @@ void ComparePieces(const SimplexMesh<D>& mesh, const Components<D>& components,
   }
   std::stable_sort(statistics.United.begin(), statistics.United.end(),
     [](const auto& a, const auto& b) { return a.Component.Voxels > b.Component.Voxels; });
+  std::erase_if(volumes, [](const auto& component) { return component.second.size() < 2; });
+  for (std::uint32_t s = 0; !volumes.empty() && s < elements.Size(); ++s)
+  {
+    const std::uint32_t p = pieces.Of(s);
+    const auto component = volumes.find(p == None ? None : pieces.All()[p].Component);
+    if (component != volumes.end())
+    {
+      component->second[p] += std::abs(SignedVolume<D>(elements.PointsOf(s).data()));
+    }
+  }
   statistics.Broken.clear();
   for (const auto& [component, all] : volumes)
   {
-    if (all.size() > 1)
+    double sum = 0.0;
+    double largest = 0.0;
+    for (const auto& [p, volume] : all)
     {
-      double sum = 0.0;
-      for (const double volume : all)
-      {
-        sum += volume;
-      }
-      statistics.Broken.push_back({ MakeReport(components.All()[component], image), all.size(),
-        *std::max_element(all.begin(), all.end()) / sum });
+      sum += volume;
+      largest = std::max(largest, volume);
     }
+    statistics.Broken.push_back(
+      { MakeReport(components.All()[component], image), all.size(), largest / sum });
   }
   const auto looseVoxels = [](const BrokenComponent& broken)
   { return (1.0 - broken.Largest) * static_cast<double>(broken.Component.Voxels); };

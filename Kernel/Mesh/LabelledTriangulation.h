@@ -40,10 +40,10 @@ public:
   std::span<const LabelId> GetLabels() const { return this->Labels; }
   std::size_t Size() const { return this->Labels.size(); }
 
-  /** Point i of an element that has a label. */
-  const Point<D>& PointOf(std::size_t element, std::size_t i) const
+  /** The points of an element that has a label. */
+  auto PointsOf(std::size_t element) const
   {
-    return this->Source.Position(this->Source.GetSimplex(static_cast<SimplexId>(element)).V[i]);
+    return this->Source.Points(this->Source.GetSimplex(static_cast<SimplexId>(element)).V);
   }
 
   /** Tells the labels of elements; 0 if not in the mesh. */

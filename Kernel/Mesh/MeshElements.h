@@ -43,10 +43,7 @@ public:
 
   std::size_t Size() const { return this->Mesh.Simplices.size(); }
 
-  const Point<D>& PointOf(std::size_t element, std::size_t i) const
-  {
-    return this->Mesh.Points[this->Mesh.Simplices[element][i]];
-  }
+  auto PointsOf(std::size_t element) const { return this->Mesh.PointsOf(element); }
 
   /** Tells the labels of elements; 0 for a value that the image does not have. */
   class LabelReader

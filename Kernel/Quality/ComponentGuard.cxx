@@ -63,14 +63,9 @@ std::vector<std::uint8_t> ComponentGuard<D>::FindHolders(
       {
         holders.resize(elements.Size());
         holders[witnesses[c]] = 1;
-        Corners corners;
-        for (std::size_t i = 0; i < corners.size(); ++i)
-        {
-          corners[i] = &elements.PointOf(witnesses[c], i);
-        }
         bool isIn = false;
-        set.Voxels.ForEachVoxel(
-          corners, [&](const auto& voxel) { isIn = isIn || set.All.At(voxel) == c; });
+        set.Voxels.ForEachVoxel(elements.PointsOf(witnesses[c]),
+          [&](const auto& voxel) { isIn = isIn || set.All.At(voxel) == c; });
         set.IsBeside[c] = !isIn;
       }
     }

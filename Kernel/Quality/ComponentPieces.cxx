@@ -121,10 +121,13 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets piece
   : Numbers(elements.Size(), None)
 {
   typename Elements::LabelReader labelOf(elements);
-  std::vector<std::uint32_t> parts(image.Values().size()); // pieces and components of each label
-  for (const Component<D>& component : components.All())
+  std::vector<std::uint32_t> only(image.Values().size(), None); // component of each label
+  std::vector<bool> hasSeveral(only.size());
+  for (std::uint32_t c = 0; c < components.All().size(); ++c)
   {
-    ++parts[component.Label];
+    const LabelId label = components.All()[c].Label;
+    hasSeveral[label] = hasSeveral[label] || only[label] != None;
+    only[label] = c;
   }
   for (std::uint32_t s = 0; s < this->Numbers.size(); ++s)
   {
@@ -137,44 +140,29 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets piece
     if (first == s)
     {
       this->Numbers[s] = static_cast<std::uint32_t>(this->List.size());
-      this->List.push_back({ .Label = label, .First = s });
-      ++parts[label];
+      this->List.push_back(
+        { .Label = label, .Component = hasSeveral[label] ? None : only[label], .First = s });
     }
     this->Numbers[s] = this->Numbers[first];
+    ++this->List[this->Numbers[s]].Size;
   }
   ThrowIfStopped(stop);
   const ElementVoxels<D> voxels(components, image);
-  const auto cornersOf = [&elements](std::size_t s)
-  {
-    typename ElementVoxels<D>::Corners corners;
-    for (std::size_t i = 0; i <= D; ++i)
-    {
-      corners[i] = &elements.PointOf(s, i);
-    }
-    return corners;
-  };
   struct HeldVolume
   {
     std::array<std::uint32_t, 2> Of; ///< piece, component
     double Volume;
   };
   std::vector<HeldVolume> held;
-  constexpr std::uint32_t OneOfEach = 2;
   for (std::size_t s = 0; s < this->Numbers.size(); ++s)
   {
-    if (this->Numbers[s] == None)
+    if (this->Numbers[s] == None || !hasSeveral[this->List[this->Numbers[s]].Label])
     {
       continue;
     }
-    Piece& piece = this->List[this->Numbers[s]];
-    ++piece.Size;
-    if (parts[piece.Label] <= OneOfEach)
-    {
-      continue;
-    }
-    const auto corners = cornersOf(s);
+    const Piece& piece = this->List[this->Numbers[s]];
+    const auto corners = elements.PointsOf(s);
     const double volume = std::abs(SignedVolume<D>(corners.data()));
-    piece.Volume += volume;
     voxels.ForEachVoxel(corners,
       [&](const auto& voxel)
       {
@@ -211,9 +199,9 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets piece
     {
       piece.Component = largest->first;
     }
-    else if (parts[piece.Label] > OneOfEach)
+    else if (piece.Component == None)
     {
-      voxels.ForEachVoxel(cornersOf(piece.First),
+      voxels.ForEachVoxel(elements.PointsOf(piece.First),
         [&](const auto& centre)
         {
           voxels.ForEachAround(centre,

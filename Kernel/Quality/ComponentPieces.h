@@ -47,9 +47,10 @@ std::map<std::int64_t, std::uint64_t> CountFragments(
  * @brief The pieces of a mesh, their volumes, and the connected components of the image that they are
  * parts of.
  *
- * A piece has a share of each component of its label that has the centroid of one of its elements in its
- * voxels: the volume of these elements. It belongs to the component with the largest share. If
- * there is none, it belongs to the first one beside its first elements.
+ * If a label has one component, its pieces belong to it. Otherwise a piece has a share of each component
+ * that has the centroid of one of its elements in its voxels: the volume of these elements. It
+ * belongs to the component with the largest share. If there is none, it belongs to the first one beside
+ * its first elements.
  *
  * Pieces are numbered from 0 in the order of their first elements. Not thread safe.
  */
@@ -62,9 +63,8 @@ public:
     LabelId Label = 0;
     std::uint32_t Component = None;
     std::size_t Size = 0;  ///< elements
-    double Volume = 0.0;   ///< 0 if the label has one piece and one component
     std::size_t First = 0; ///< element
-    /** Components and their shares. Likewise. */
+    /** Components and their shares; empty if the label has one. */
     std::vector<std::pair<std::uint32_t, double>> Shares = {};
   };
 

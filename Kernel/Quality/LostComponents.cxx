@@ -20,18 +20,6 @@ namespace voxplex
 namespace
 {
 
-/** The corners of an element of either kind. */
-template <typename Elements>
-auto CornersOf(const Elements& elements, std::size_t s)
-{
-  typename ElementVoxels<Elements::Dimension>::Corners corners;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-  {
-    corners[i] = &elements.PointOf(s, i);
-  }
-  return corners;
-}
-
 /** The voxels whose block (ElementVoxels::ForEachAround) contains a voxel of some components. */
 template <int D>
 class Surroundings
@@ -122,7 +110,7 @@ public:
       [&](std::size_t s, LabelId label)
       {
         this->Voxels.ForEachVoxel(
-          CornersOf(this->Of, s), [&](const Index& voxel) { this->Mark(voxel, label, s); });
+          this->Of.PointsOf(s), [&](const Index& voxel) { this->Mark(voxel, label, s); });
       });
     std::vector<std::uint32_t> found = this->Copy();
     Surroundings<D> near(this->Voxels, this->Image.CropDimensions());
@@ -142,7 +130,7 @@ public:
     this->ForEachOfMissing(
       [&](std::size_t s, LabelId label)
       {
-        this->Voxels.ForEachVoxel(CornersOf(this->Of, s),
+        this->Voxels.ForEachVoxel(this->Of.PointsOf(s),
           [&](const Index& centre)
           {
             if (near.Contain(centre))

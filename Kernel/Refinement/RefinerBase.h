@@ -12,8 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 

@@ -68,8 +68,7 @@ struct LabelledMesh
   {
     const Components<3> components(this->Image);
     const LabelledTriangulation<3> elements(this->Mesh(), this->Labels);
-    const ComponentPieces<3> pieces(
-      elements, FindPieces<3>(elements), components, this->Image, {});
+    const ComponentPieces<3> pieces(elements, FindPieces<3>(elements), components, this->Image, {});
     std::set<std::uint32_t> held;
     for (const auto& piece : pieces.All())
     {
@@ -390,18 +389,24 @@ TEST(ComponentPieces, AreThoseOfTheExtractedMesh)
     EXPECT_EQ(numbers, CountFragments(mesh));
     const ComponentPieces<3> extracted(MeshElements<3>(mesh, blobs.Image), FindPieces<3>(mesh),
       Components<3>(blobs.Image), blobs.Image, {});
-    std::map<std::uint32_t, double> volumes; // by component
-    for (const auto& piece : pieces.All())
+    std::map<std::uint32_t, std::array<double, 2>> sums; // elements and shares of each component
+    const auto add = [&sums](const ComponentPieces<3>& some, double sign)
     {
-      volumes[piece.Component] += piece.Volume;
-    }
-    for (const auto& piece : extracted.All())
+      for (const auto& piece : some.All())
+      {
+        sums[piece.Component][0] += sign * static_cast<double>(piece.Size);
+        for (const auto& [component, volume] : piece.Shares)
+        {
+          sums[component][1] += sign * volume;
+        }
+      }
+    };
+    add(pieces, 1.0);
+    add(extracted, -1.0);
+    for (const auto& [component, differences] : sums)
     {
-      volumes[piece.Component] -= piece.Volume;
-    }
-    for (const auto& [component, difference] : volumes)
-    {
-      EXPECT_NEAR(difference, 0.0, 1e-6);
+      EXPECT_EQ(differences[0], 0.0);
+      EXPECT_NEAR(differences[1], 0.0, 1e-6);
     }
   }
 }

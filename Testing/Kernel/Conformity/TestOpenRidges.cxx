@@ -355,7 +355,7 @@ TEST(LabelledTriangulation, HasTheElementsOfTheMesh)
         found.emplace_back(PlainLabels().LabelValue(label), std::array<Point<3>, 4>{});
       for (std::size_t i = 0; i < 4; ++i)
       {
-        element.second[i] = elements.PointOf(t, i);
+        element.second[i] = *elements.PointsOf(t)[i];
       }
     }
   }
