@@ -23,9 +23,13 @@ namespace voxplex
 namespace
 {
 
-/** A search from a piece ends after this number of simplices, and of ways that are not allowed. */
+/**
+ * A search from a piece ends after this number of simplices, and of ways that are not allowed. Pieces that
+ * may have gaps are worth more.
+ */
 constexpr std::size_t MostLookedAt = 2000;
 constexpr unsigned MostWays = 16;
+constexpr unsigned MostWaysOfSmall = 4;
 
 /** Pieces of more simplices keep their label, unless they are smaller than a voxel. */
 constexpr std::size_t MostGivenAway = 5;
@@ -98,11 +102,11 @@ private:
     bool isDone = of.empty();
     if (isWanted && !isDone)
     {
-      isDone = this->Connect(p, of, repair::Leeway::Usual);
+      isDone = this->Connect(p, of, repair::Leeway::Usual, mayBeGap ? MostWays : MostWaysOfSmall);
     }
     if (mayBeGap && !isDone && this->Gaps.AreLast)
     {
-      isDone = this->Connect(p, of, repair::Leeway::OffInterfaces);
+      isDone = this->Connect(p, of, repair::Leeway::OffInterfaces, MostWays);
     }
     const bool isSmall =
       volume < this->Of.Image.Grid().VoxelVolume() || (!mayBeGap && of.size() <= MostGivenAway);
@@ -121,10 +125,9 @@ private:
     this->AddGap(piece.Component, gap);
   }
 
-  /** Connects a piece along the first way that is allowed. */
-  bool Connect(std::uint32_t p, const Simplices& of, repair::Leeway leeway)
+  /** Connects a piece along the first way that is allowed. @param most ways that are tried */
+  bool Connect(std::uint32_t p, const Simplices& of, repair::Leeway leeway, unsigned most)
   {
-    unsigned most = MostWays;
     bool isDone = false;
     this->ForEachWay(p, of, leeway == repair::Leeway::Usual,
       [&](Simplices way)

@@ -278,7 +278,7 @@ bool LabelContacts<D>::AreConnected(
   {
     return true;
   }
-  for (const double detour : { 0.0, Detour }) // a small box answers many questions
+  for (const double detour : { 0.0, 1.0, Detour }) // a small box answers many questions
   {
     Index low;
     Index high;
