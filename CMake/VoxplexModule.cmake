@@ -24,26 +24,6 @@ foreach (voxplex_part IN ITEMS Kernel Parameters)
   endif ()
 endforeach ()
 
-include("${voxplex_root}/CMake/VoxplexFindITK.cmake")
-set(voxplex_repair_class)
-set(voxplex_repair_headers)
-set(voxplex_repair_sources)
-if (ITK_FOUND)
-  set(voxplex_repair_class ${voxplex_filters}/vtkSegmentationRepair)
-  set(voxplex_repair_headers
-    ${voxplex_filters}/Private/ITKOperations.h
-    ${voxplex_filters}/Private/SegmentationRepair.h
-    ${voxplex_filters}/Private/ThinRidges.h
-    ${voxplex_filters}/Private/VoxelBox.h)
-  set(voxplex_repair_sources
-    ${voxplex_filters}/Private/ITKOperations.cxx
-    ${voxplex_filters}/Private/SegmentationChecks.cxx
-    ${voxplex_filters}/Private/SegmentationRepair.cxx
-    ${voxplex_filters}/Private/ThinRidges.cxx)
-else ()
-  voxplex_skip("repair of segmentations" "ITK was not found (apt-get install libinsighttoolkit5-dev), or not for this compiler")
-endif ()
-
 vtk_module_add_module(VTK::Voxplex
   CLASSES
     ${voxplex_filters}/vtkImageToPentatopeMeshFilter
@@ -51,10 +31,9 @@ vtk_module_add_module(VTK::Voxplex
     ${voxplex_filters}/vtkImageToTetMeshFilter
     ${voxplex_filters}/vtkMeshingStatistics
     ${voxplex_filters}/vtkPentatopeMeshTimeSlice
-    ${voxplex_repair_class}
+    ${voxplex_filters}/vtkSegmentationRepair
     ${voxplex_filters}/vtkSimplexMeshQuality
   PRIVATE_HEADERS
-    ${voxplex_repair_headers}
     ${voxplex_filters}/Private/ChosenArray.h
     ${voxplex_filters}/Private/ElementSizes.h
     ${voxplex_filters}/Private/Execution.h
@@ -68,10 +47,12 @@ vtk_module_add_module(VTK::Voxplex
     ${voxplex_filters}/Private/OutputArrays.h
     ${voxplex_filters}/Private/QualityRun.h
     ${voxplex_filters}/Private/QualityTables.h
+    ${voxplex_filters}/Private/SegmentationRepair.h
     ${voxplex_filters}/Private/SimplexMeshRun.h
     ${voxplex_filters}/Private/SmpThreads.h
+    ${voxplex_filters}/Private/ThinRidges.h
+    ${voxplex_filters}/Private/VoxelBox.h
   SOURCES
-    ${voxplex_repair_sources}
     ${voxplex_filters}/Private/ChosenArray.cxx
     ${voxplex_filters}/Private/ElementSizes.cxx
     ${voxplex_filters}/Private/HiddenVoxels.cxx
@@ -83,7 +64,10 @@ vtk_module_add_module(VTK::Voxplex
     ${voxplex_filters}/Private/QualityJson.cxx
     ${voxplex_filters}/Private/QualityRun.cxx
     ${voxplex_filters}/Private/QualityTables.cxx
+    ${voxplex_filters}/Private/SegmentationChecks.cxx
+    ${voxplex_filters}/Private/SegmentationRepair.cxx
     ${voxplex_filters}/Private/SmpThreads.cxx
+    ${voxplex_filters}/Private/ThinRidges.cxx
     $<TARGET_OBJECTS:VoxplexExact>
     $<FILTER:$<TARGET_OBJECTS:VoxplexKernel>,EXCLUDE,[.]gch$> # a precompiled header is no object
     $<TARGET_OBJECTS:VoxplexParameters>)
@@ -118,11 +102,6 @@ vtk_module_link(VTK::Voxplex
     "$<LINK_ONLY:CGAL::CGAL>"
     "$<BUILD_INTERFACE:nlohmann_json::nlohmann_json>" # header files only
     ${voxplex_kernel_libraries})
-
-if (ITK_FOUND) # inside: no user of the module needs it; much of what ITK's CMake files name is not used
-  target_include_directories(Voxplex SYSTEM PRIVATE ${ITK_INCLUDE_DIRS})
-  vtk_module_link(VTK::Voxplex PRIVATE "$<BUILD_INTERFACE:${ITK_LIBRARIES}>")
-endif ()
 
 # What is not exported by name stays inside, as in the kernel.
 set_target_properties(Voxplex PROPERTIES

@@ -108,7 +108,7 @@ if (VOXPLEX_HAVE_PYTHON)
   list(APPEND CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA # byte code: made at installation, removed with the package
     "${CMAKE_CURRENT_SOURCE_DIR}/CMake/debian/postinst" "${CMAKE_CURRENT_SOURCE_DIR}/CMake/debian/prerm")
 endif ()
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libvtk9-dev, libinsighttoolkit5-dev, paraview")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libvtk9-dev, paraview")
 
 set(CPACK_GENERATOR "TGZ")
 if (VOXPLEX_DPKG_SHLIBDEPS)

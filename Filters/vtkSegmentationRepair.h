@@ -4,14 +4,13 @@
  * @class   vtkSegmentationRepair
  * @brief   repairs a label image on request, and says what is suspicious about it
  *
- * Operations are off by default, and are done in the order in which they stand here. Cavities and distances are ITK's
- * (BinaryImageToLabelMapFilter; SignedMaurerDistanceMapImageFilter for thicknesses).
+ * Operations are off by default, and are done in the order in which they stand here.
  *
  * @par Input and outputs
  * Port 0: a label image of three dimensions, 0 is background; SetInputArrayToProcess(0, ...) chooses an array, by default
  * the active scalars of points or cells. Frames of a series are repaired one by one. Output 0 is the image with its labels
  * changed, in a larger type if a new label needs it. Output 1 is a vtkTable, a row for each operation and label that it
- * changed: `What`, `Label`, `Name`, `Voxels` that were changed, `Places` (connected sets of them), `Largest` (voxels
+ * changed: `What`, `Label`, `Name`, `Voxels` that were changed, `Places` (sets of them that faces connect), `Largest` (voxels
  * of the largest place), `First` and `Last`, the corners of its bounding box as indices of voxels from 0 on.
  *
  * @par FillHoles
@@ -127,7 +126,7 @@ public:
   ///@}
 
   ///@{
-  /** Threads of what is not ITK's; 0 for as many as vtkSMPTools uses. No result depends on it. Default 0. */
+  /** Threads; 0 for as many as vtkSMPTools uses. No result depends on it. Default 0. */
   vtkSetMacro(NumberOfThreads, int);
   vtkGetMacro(NumberOfThreads, int);
   ///@}

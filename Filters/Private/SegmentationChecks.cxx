@@ -182,7 +182,7 @@ std::vector<RepairRow> SegmentationRepair::FindSuspicious(
   Rows cavities{ "cavities", {} };
   for (const auto& [piece, id] : this->FindCavities(std::numeric_limits<std::int64_t>::max()))
   {
-    cavities.Add(this->Values[id], piece.Voxels, piece.First, piece.Last);
+    cavities.Add(this->Values[id], piece.Voxels, piece.Box.First, piece.Box.Last);
   }
   cavities.AppendTo(rows);
   const auto addPieces = [&](const char* what, const std::vector<Positions>& pieces)

@@ -103,8 +103,7 @@ bool SegmentationRepair::Has(const VoxelIndex& voxel, LabelId id) const
 }
 
 /**
- * Whether a block of the label of two voxels along some of the axes has the voxel: what opening by the block leaves. (ITK's
- * opening is of one label: 0.1 microseconds a voxel for each label and each block, this for all labels less.)
+ * Whether a block of the label of two voxels along some of the axes has the voxel: what opening by the block leaves.
  * @param axes bits
  */
 bool SegmentationRepair::IsInBlock(const VoxelIndex& voxel, LabelId id, unsigned axes) const
@@ -176,16 +175,61 @@ VoxelBox SegmentationRepair::BoxOf(const Positions& voxels) const
 }
 
 //------------------------------------------------------------------------------------------------
-std::vector<std::pair<Piece, LabelId>> SegmentationRepair::FindCavities(std::int64_t largest) const
+/**
+ * The sets of the voxels of a box that a test takes and that are connected through faces, but for those of more than `largest`
+ * voxels.
+ */
+template <typename Test>
+std::vector<SegmentationRepair::Piece> SegmentationRepair::FindPieces(
+  const VoxelBox& box, const Test& test, std::int64_t largest) const
+{
+  GridGeometry<3> grid = this->Grid;
+  grid.Dimensions = box.Size();
+  std::vector<unsigned char> mask;
+  mask.reserve(Unsigned(grid.Dimensions[0] * grid.Dimensions[1] * grid.Dimensions[2]));
+  box.ForEachVoxel(
+    [&](const VoxelIndex& voxel) { mask.push_back(test(this->PositionOf(voxel)) ? 1 : 0); });
+  if (std::count(mask.begin(), mask.end(), 1) == 0)
+  {
+    return {};
+  }
+  const auto image = LabelImage<3>::FromScalars<unsigned char>(mask, grid, {}, this->Threads);
+  const Components<3> components(image, this->Threads);
+  std::vector<Piece> pieces;
+  for (std::uint32_t c = 0; c < components.All().size(); ++c)
+  {
+    if (components.All()[c].Voxels > largest)
+    {
+      continue;
+    }
+    Piece& piece = pieces.emplace_back();
+    piece.Voxels = components.All()[c].Voxels;
+    components.ForEachRun(c,
+      [&](const VoxelIndex& start, std::int64_t length)
+      {
+        const VoxelIndex first = Plus(Plus(start, image.CropOrigin()), box.First);
+        piece.Runs.push_back({ first, length });
+        piece.Box.Include(first);
+        piece.Box.Include(Plus(first, { length - 1, 0, 0 }));
+      });
+  }
+  return pieces;
+}
+
+std::vector<std::pair<SegmentationRepair::Piece, LabelId>> SegmentationRepair::FindCavities(
+  std::int64_t largest) const
 {
   std::vector<std::pair<Piece, LabelId>> cavities;
   const VoxelIndex& n = this->Grid.Dimensions;
-  for (Piece& piece : FindPieces<LabelId>(this->Ids, n, 0, false, largest))
+  const VoxelBox all{ {}, Minus(n, { 1, 1, 1 }) };
+  const auto isBackground = [this](std::int64_t position)
+  { return this->Ids[Unsigned(position)] == 0; };
+  for (Piece& piece : this->FindPieces(all, isBackground, largest))
   {
     bool isEnclosed = true;
     for (std::size_t a = 0; a < 3; ++a)
     {
-      isEnclosed = isEnclosed && piece.First[a] > 0 && piece.Last[a] + 1 < n[a];
+      isEnclosed = isEnclosed && piece.Box.First[a] > 0 && piece.Box.Last[a] + 1 < n[a];
     }
     if (!isEnclosed)
     {
@@ -219,7 +263,7 @@ std::vector<RepairRow> SegmentationRepair::FillHoles(std::int64_t largest)
     {
       std::fill_n(this->Ids.begin() + this->PositionOf(run.First), run.Length, id);
     }
-    filled.Add(this->Values[id], piece.Voxels, piece.First, piece.Last);
+    filled.Add(this->Values[id], piece.Voxels, piece.Box.First, piece.Box.Last);
   }
   std::vector<RepairRow> rows;
   filled.AppendTo(rows);
@@ -407,7 +451,7 @@ SegmentationRepair::Positions SegmentationRepair::FindThickening(
         this->Progress(static_cast<double>(block.First[2]) / static_cast<double>(n[2]));
         const VoxelBox around = block.Grown(margin, this->Spacing, n);
         const VoxelIndex size = around.Size();
-        const HalfVoxels halves{ { 2 * size[0], 2 * size[1], 2 * size[2] }, half };
+        const HalfVoxels halves{ { 2 * size[0], 2 * size[1], 2 * size[2] }, half, this->Threads };
         std::vector<unsigned char> outside(halves.Count(), 0);
         std::int64_t voxels = 0;
         around.ForEachVoxel(
@@ -429,7 +473,7 @@ SegmentationRepair::Positions SegmentationRepair::FindThickening(
         {
           return;
         }
-        const std::vector<float> distances = DistancesToSites(ridges, halves.Size, half);
+        const FeatureTransform<3> distances = halves.DistancesTo(ridges);
         block.ForEachVoxel(
           [&](const VoxelIndex& voxel)
           {
@@ -438,7 +482,7 @@ SegmentationRepair::Positions SegmentationRepair::FindThickening(
             int near = 0;
             for (unsigned corner = 0; corner < 8 && own != id && !isKept[own]; ++corner)
             {
-              near += distances[halves.At(Minus(voxel, around.First), corner)] <
+              near += distances.Distance(halves.At(Minus(voxel, around.First), corner)) <
                   length / 2.0 * (1.0 - DistanceRounding)
                 ? 1
                 : 0;
@@ -533,19 +577,16 @@ RepairRow SegmentationRepair::Change(
   {
     this->Ids[Unsigned(voxel)] = id;
   }
-  const VoxelBox box = this->BoxOf(voxels);
-  const VoxelIndex size = box.Size();
-  std::vector<unsigned char> mask(Unsigned(size[0] * size[1] * size[2]), 0);
+  std::vector<bool> isChanged(this->Ids.size(), false);
   for (const std::int64_t voxel : voxels)
   {
-    const VoxelIndex at = Minus(this->IndexOf(voxel), box.First);
-    mask[Unsigned(at[0] + size[0] * (at[1] + size[1] * at[2]))] = 1;
+    isChanged[Unsigned(voxel)] = true;
   }
   Rows rows{ what, {} };
-  for (const Piece& piece :
-    FindPieces<unsigned char>(mask, size, 1, true, std::numeric_limits<std::int64_t>::max()))
+  for (const Piece& piece : this->FindPieces(
+         this->BoxOf(voxels), [&](std::int64_t position) { return isChanged[Unsigned(position)]; }))
   {
-    rows.Add(label, piece.Voxels, Plus(piece.First, box.First), Plus(piece.Last, box.First));
+    rows.Add(label, piece.Voxels, piece.Box.First, piece.Box.Last);
   }
   return rows.ByLabel.at(label);
 }

@@ -7,10 +7,12 @@
 #ifndef voxplex_Private_SegmentationRepair_h
 #define voxplex_Private_SegmentationRepair_h
 
+#include "Image/LabelImage.h"
 #include "Parallel/ParallelFor.h"
 #include "Private/VoxelBox.h"
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -84,6 +86,19 @@ private:
   using Positions = std::vector<std::int64_t>; ///< of voxels, the first axis fastest
   struct Rows;
 
+  /** A connected set of voxels, as runs along the first axis. */
+  struct Piece
+  {
+    struct Run
+    {
+      VoxelIndex First;
+      std::int64_t Length;
+    };
+    std::vector<Run> Runs;
+    std::int64_t Voxels = 0;
+    VoxelBox Box = VoxelBox::Empty();
+  };
+
   std::int64_t PositionOf(const VoxelIndex& voxel) const;
   VoxelIndex IndexOf(std::int64_t position) const;
   bool IsAtBorder(const VoxelIndex& voxel) const;
@@ -97,6 +112,9 @@ private:
   VoxelBox BoxOf(LabelId id) const;
   VoxelBox BoxOf(const Positions& voxels) const;
 
+  template <typename Test>
+  std::vector<Piece> FindPieces(const VoxelBox& box, const Test& test,
+    std::int64_t largest = std::numeric_limits<std::int64_t>::max()) const;
   /** Each with the label that has most of the faces around it. */
   std::vector<std::pair<Piece, LabelId>> FindCavities(std::int64_t largest) const;
   template <typename Test>

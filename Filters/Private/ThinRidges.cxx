@@ -17,9 +17,23 @@ constexpr double RidgeSlope = 0.15;
 
 } // namespace
 
-bool HalfVoxels::IsRidge(const VoxelIndex& half, const std::vector<float>& distances) const
+FeatureTransform<3> HalfVoxels::DistancesTo(const std::vector<unsigned char>& sites) const
 {
-  const double own = distances[this->At(half)];
+  BitMask<3> mask(this->Size);
+  VoxelBox{ {}, Minus(this->Size, { 1, 1, 1 }) }.ForEachVoxel(
+    [&](const VoxelIndex& half)
+    {
+      if (sites[this->At(half)] != 0)
+      {
+        mask.Set(half);
+      }
+    });
+  return { mask, this->Spacing, { 1, 1, 1 }, this->Threads };
+}
+
+bool HalfVoxels::IsRidge(const VoxelIndex& half, const FeatureTransform<3>& distances) const
+{
+  const double own = distances.Distance(this->At(half));
   for (int step = 0; step < 27; ++step)
   {
     const VoxelIndex move{ step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1 };
@@ -33,7 +47,7 @@ bool HalfVoxels::IsRidge(const VoxelIndex& half, const std::vector<float>& dista
       isInside = isInside && other[a] >= 0 && other[a] < this->Size[a];
     }
     if (isInside && length > 0.0 &&
-      distances[this->At(other)] - own > RidgeSlope * std::sqrt(length))
+      distances.Distance(this->At(other)) - own > RidgeSlope * std::sqrt(length))
     {
       return false;
     }
@@ -44,7 +58,7 @@ bool HalfVoxels::IsRidge(const VoxelIndex& half, const std::vector<float>& dista
 std::vector<unsigned char> HalfVoxels::ThinRidges(
   const std::vector<unsigned char>& outside, double radius) const
 {
-  const std::vector<float> distances = DistancesToSites(outside, this->Size, this->Spacing);
+  const FeatureTransform<3> distances = this->DistancesTo(outside);
   const double fits = radius * (1.0 - DistanceRounding);
   std::vector<unsigned char> ridges(this->Count(), 0);
   std::vector<unsigned char> fitting(this->Count(), 0);
@@ -58,7 +72,7 @@ std::vector<unsigned char> HalfVoxels::ThinRidges(
       for (half[0] = 0; half[0] < this->Size[0]; ++half[0])
       {
         const std::size_t at = this->At(half);
-        fitting[at] = distances[at] >= fits ? 1 : 0;
+        fitting[at] = distances.Distance(at) >= fits ? 1 : 0;
         ridges[at] = outside[at] == 0 && fitting[at] == 0 && this->IsRidge(half, distances);
         isAnyRidge = isAnyRidge || ridges[at] != 0;
         isAnyFitting = isAnyFitting || fitting[at] != 0;
@@ -71,10 +85,10 @@ std::vector<unsigned char> HalfVoxels::ThinRidges(
   }
   if (isAnyFitting)
   {
-    const std::vector<float> away = DistancesToSites(fitting, this->Size, this->Spacing);
+    const FeatureTransform<3> away = this->DistancesTo(fitting);
     for (std::size_t at = 0; at < ridges.size(); ++at)
     {
-      ridges[at] = ridges[at] != 0 && away[at] > 2.0 * radius ? 1 : 0;
+      ridges[at] = ridges[at] != 0 && away.Distance(at) > 2.0 * radius ? 1 : 0;
     }
   }
   return std::count(ridges.begin(), ridges.end(), 1) == 0 ? std::vector<unsigned char>() : ridges;

@@ -7,6 +7,7 @@
 #ifndef voxplex_Private_ThinRidges_h
 #define voxplex_Private_ThinRidges_h
 
+#include "Image/FeatureTransform.h"
 #include "Private/VoxelBox.h"
 
 #include <vector>
@@ -19,6 +20,7 @@ struct HalfVoxels
 {
   VoxelIndex Size;
   Point<3> Spacing;
+  unsigned Threads;
 
   std::size_t Count() const { return Unsigned(this->Size[0] * this->Size[1] * this->Size[2]); }
   std::size_t At(const VoxelIndex& half) const
@@ -31,8 +33,11 @@ struct HalfVoxels
       2 * voxel[2] + (corner >> 2 & 1u) });
   }
 
+  /** The distance from the middle of each half voxel to that of the nearest site. @param sites not 0 there */
+  FeatureTransform<3> DistancesTo(const std::vector<unsigned char>& sites) const;
+
   /** Whether distances grow slowly around a half voxel. */
-  bool IsRidge(const VoxelIndex& half, const std::vector<float>& distances) const;
+  bool IsRidge(const VoxelIndex& half, const FeatureTransform<3>& distances) const;
 
   /**
    * The middle of thin places: ridges where balls of the radius do not fit, and farther than their diameter from where

@@ -7,7 +7,7 @@
 #ifndef voxplex_Private_VoxelBox_h
 #define voxplex_Private_VoxelBox_h
 
-#include "Private/ITKOperations.h"
+#include "Image/GridGeometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,8 @@
 
 namespace voxplex
 {
+
+using VoxelIndex = GridGeometry<3>::Index;
 
 inline std::size_t Unsigned(std::int64_t i)
 {

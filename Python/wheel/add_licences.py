@@ -22,7 +22,6 @@ from pathlib import Path
 # the GPL only.
 LICENCES = {
     "Apache-2.0": "liblerc4 libssl3 libtbb12",
-    "Apache-2.0 AND BSD-3-Clause": "libinsighttoolkit5.2",  # its common libraries; others are linked with FFTW, under the GPL
     "BSD-2-Clause": "libaec0 liblz4-1 libopenjp2-7 libsz2",
     "BSD-3-Clause": "libcharls2 libdouble-conversion3 libgdcm3.0 libhdf5-103-1 libhwloc15 libuuid1 libvtk9.1 libwebp7",
     "BSD-3-Clause OR GPL-2.0-only": "libzstd1",
