@@ -176,24 +176,25 @@ VoxelBox SegmentationRepair::BoxOf(const Positions& voxels) const
 
 //------------------------------------------------------------------------------------------------
 /**
- * The sets of the voxels of a box that a test takes and that are connected through faces, but for those of more than `largest`
- * voxels.
+ * The sets of voxels of a box that are connected through faces and have one label, but for those of more than `largest` voxels.
+ * @param labelOf the label at a position; 0: of no set
  */
-template <typename Test>
+template <typename LabelOf>
 std::vector<SegmentationRepair::Piece> SegmentationRepair::FindPieces(
-  const VoxelBox& box, const Test& test, std::int64_t largest) const
+  const VoxelBox& box, const LabelOf& labelOf, std::int64_t largest) const
 {
   GridGeometry<3> grid = this->Grid;
   grid.Dimensions = box.Size();
-  std::vector<unsigned char> mask;
-  mask.reserve(Unsigned(grid.Dimensions[0] * grid.Dimensions[1] * grid.Dimensions[2]));
+  using Label = decltype(labelOf(std::int64_t{}));
+  std::vector<Label> labels;
+  labels.reserve(Unsigned(grid.Dimensions[0] * grid.Dimensions[1] * grid.Dimensions[2]));
   box.ForEachVoxel(
-    [&](const VoxelIndex& voxel) { mask.push_back(test(this->PositionOf(voxel)) ? 1 : 0); });
-  if (std::count(mask.begin(), mask.end(), 1) == 0)
+    [&](const VoxelIndex& voxel) { labels.push_back(labelOf(this->PositionOf(voxel))); });
+  if (std::all_of(labels.begin(), labels.end(), [](Label label) { return label == 0; }))
   {
     return {};
   }
-  const auto image = LabelImage<3>::FromScalars<unsigned char>(mask, grid, {}, this->Threads);
+  const auto image = LabelImage<3>::FromScalars<Label>(labels, grid, {}, this->Threads);
   const Components<3> components(image, this->Threads);
   std::vector<Piece> pieces;
   for (std::uint32_t c = 0; c < components.All().size(); ++c)
@@ -222,7 +223,7 @@ std::vector<std::pair<SegmentationRepair::Piece, LabelId>> SegmentationRepair::F
   std::vector<std::pair<Piece, LabelId>> cavities;
   const VoxelIndex& n = this->Grid.Dimensions;
   const VoxelBox all{ {}, Minus(n, { 1, 1, 1 }) };
-  const auto isBackground = [this](std::int64_t position)
+  const auto isBackground = [this](std::int64_t position) -> unsigned char
   { return this->Ids[Unsigned(position)] == 0; };
   for (Piece& piece : this->FindPieces(all, isBackground, largest))
   {
@@ -279,30 +280,30 @@ std::vector<SegmentationRepair::Positions> SegmentationRepair::PiecesOf(
   {
     return {};
   }
-  std::vector<LabelId> ids(this->Ids.size(), 0);
+  std::vector<bool> isOne(this->Ids.size(), false);
   for (const std::int64_t voxel : voxels)
   {
-    const LabelId id = this->Ids[Unsigned(voxel)];
-    ids[Unsigned(voxel)] = id == 0 ? ofBackground : id;
+    isOne[Unsigned(voxel)] = true;
   }
-  const LabelImage<3> image = this->ImageOf(ids);
-  const Components<3> components(image, this->Threads);
-  std::vector<Positions> pieces(components.All().size());
-  for (std::uint32_t c = 0; c < pieces.size(); ++c)
+  // An image has at least two voxels along each axis.
+  const VoxelBox box =
+    this->BoxOf(voxels).Grown(this->Spacing[0], this->Spacing, this->Grid.Dimensions);
+  std::vector<Positions> pieces;
+  for (const Piece& piece : this->FindPieces(box,
+         [&](std::int64_t position) -> LabelId
+         {
+           const LabelId id = this->Ids[Unsigned(position)];
+           return !isOne[Unsigned(position)] ? 0 : id == 0 ? ofBackground : id;
+         }))
   {
-    components.ForEachRun(c,
-      [&](VoxelIndex first, std::int64_t length)
+    Positions& positions = pieces.emplace_back();
+    for (const Piece::Run& run : piece.Runs)
+    {
+      for (std::int64_t i = 0; i < run.Length; ++i)
       {
-        for (std::size_t a = 0; a < 3; ++a)
-        {
-          first[a] += image.CropOrigin()[a];
-        }
-        const std::int64_t position = this->PositionOf(first);
-        for (std::int64_t i = 0; i < length; ++i)
-        {
-          pieces[c].push_back(position + i);
-        }
-      });
+        positions.push_back(this->PositionOf(run.First) + i);
+      }
+    }
   }
   return pieces;
 }
@@ -577,16 +578,11 @@ RepairRow SegmentationRepair::Change(
   {
     this->Ids[Unsigned(voxel)] = id;
   }
-  std::vector<bool> isChanged(this->Ids.size(), false);
-  for (const std::int64_t voxel : voxels)
-  {
-    isChanged[Unsigned(voxel)] = true;
-  }
   Rows rows{ what, {} };
-  for (const Piece& piece : this->FindPieces(
-         this->BoxOf(voxels), [&](std::int64_t position) { return isChanged[Unsigned(position)]; }))
+  for (const Positions& piece : this->PiecesOf(voxels, 1)) // they may be background now
   {
-    rows.Add(label, piece.Voxels, piece.Box.First, piece.Box.Last);
+    const VoxelBox box = this->BoxOf(piece);
+    rows.Add(label, std::ssize(piece), box.First, box.Last);
   }
   return rows.ByLabel.at(label);
 }

@@ -112,8 +112,8 @@ private:
   VoxelBox BoxOf(LabelId id) const;
   VoxelBox BoxOf(const Positions& voxels) const;
 
-  template <typename Test>
-  std::vector<Piece> FindPieces(const VoxelBox& box, const Test& test,
+  template <typename LabelOf>
+  std::vector<Piece> FindPieces(const VoxelBox& box, const LabelOf& labelOf,
     std::int64_t largest = std::numeric_limits<std::int64_t>::max()) const;
   /** Each with the label that has most of the faces around it. */
   std::vector<std::pair<Piece, LabelId>> FindCavities(std::int64_t largest) const;

@@ -3,10 +3,8 @@
 // All operations at once, with one thread and with several. Python's tests try each; this one is for sanitizers.
 #include "FilterTesting.h"
 
-#include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkSegmentationRepair.h"
 #include "vtkTable.h"
 
