@@ -44,8 +44,7 @@ std::map<std::int64_t, std::uint64_t> CountFragments(
   const SimplexMesh<3>& mesh, const std::stop_token& stop = {});
 
 /**
- * @brief The pieces of a mesh, their volumes, and the connected components of the image that they are
- * parts of.
+ * @brief The pieces of a mesh, and the connected components of the image that they are parts of.
  *
  * If a label has one component, its pieces belong to it. Otherwise a piece has a share of each component
  * that has the centroid of one of its elements in its voxels: the volume of these elements. It

@@ -371,6 +371,30 @@ TEST(Pieces, VesselsOfAVoxelHoldTogetherIfTheyAreToBeExact)
 }
 
 //------------------------------------------------------------------------------------------------
+TEST(ComponentPieces, OfALabelWithOneComponentBelongToItWhereverTheyAre)
+{
+  std::vector<std::uint8_t> labels(8 * 8 * 8, 0);
+  labels[0] = 1;
+  const auto image = LabelImage<3>::FromScalars<std::uint8_t>(
+    labels, GridGeometry<3>::Orthogonal({ 8, 8, 8 }, { 1, 1, 1 }));
+  SimplexMesh<3> mesh;
+  for (const double x : { 0.0, 6.0 })
+  {
+    const auto first = static_cast<std::uint32_t>(mesh.Points.size());
+    for (const Point<3>& p : { Point<3>{ x, 0, 0 }, { x + 1, 0, 0 }, { x, 1, 0 }, { x, 0, 1 } })
+    {
+      mesh.Points.push_back(p);
+    }
+    mesh.Simplices.push_back({ first, first + 1, first + 2, first + 3 });
+    mesh.Labels.push_back(1);
+  }
+  const ComponentPieces<3> pieces(
+    MeshElements<3>(mesh, image), FindPieces<3>(mesh), Components<3>(image), image, {});
+  ASSERT_EQ(pieces.All().size(), 2u);
+  EXPECT_EQ(pieces.All()[0].Component, 0u);
+  EXPECT_EQ(pieces.All()[1].Component, 0u);
+}
+
 TEST(ComponentPieces, AreThoseOfTheExtractedMesh)
 {
   for (unsigned seed = 1; seed <= 6; ++seed)
