@@ -352,13 +352,9 @@ std::vector<SegmentationRepair::Positions> SegmentationRepair::PiecesBeside(
           {
             return;
           }
-          VoxelIndex index = this->IndexOf(neighbour);
-          for (std::size_t a = 0; a < 3; ++a)
-          {
-            index[a] -= image.CropOrigin()[a];
-          }
-          isBridge = isBridge || (part != Components<3>::None && part != parts.At(index));
-          part = parts.At(index);
+          const std::uint32_t other = parts.At(Minus(this->IndexOf(neighbour), image.CropOrigin()));
+          isBridge = isBridge || (part != Components<3>::None && part != other);
+          part = other;
         });
     }
     if (part != Components<3>::None && isBridge == bridges)
