@@ -10,6 +10,11 @@ set(VOXPLEX_HAVE_IO OFF)
 set(_voxplex_io_components
   CommonCore CommonDataModel CommonExecutionModel CommonMisc IOCore IOGeometry IOLegacy IOXML ImagingCore expat hdf5 tiff)
 
+if (WIN32)
+  voxplex_skip("reading and writing of files" "images are read by a process of its own, which is started as on POSIX systems only")
+  return ()
+endif ()
+
 # As a library of its own, or as ITK brings it (3D Slicer).
 find_package(GDCM 3.0 QUIET)
 if (GDCM_FOUND)

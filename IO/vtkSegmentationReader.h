@@ -50,8 +50,8 @@
  * @par The reading process
  * The file is read by a program of its own (voxplexImageReader, beside this library), which may open no other files
  * and has limits of memory and time; it hands over the voxels in shared memory. Whatever a damaged file does to the
- * libraries that read it, this process lives and has a message. Where no process can be started, the file is read in
- * this process.
+ * libraries that read it, this process lives and has a message. If the process cannot be started, there is an
+ * error, and no image.
  *
  * @par Thread safety
  * Distinct instances may execute at the same time.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ReadImage.h
- * @brief Reads a 3D or 4D image, in this process or in one of its own.
+ * @brief Reads a 3D or 4D image, in a process of its own.
  */
 #ifndef voxplex_io_ReadImage_h
 #define voxplex_io_ReadImage_h
@@ -42,7 +42,7 @@ struct ImageAnswer
 using VoxelAllocator = std::function<std::shared_ptr<void>(std::size_t bytes)>;
 
 /**
- * Reads an image here and now, in the scalar type that the file has. The first bytes of a file tell its format, not
+ * Reads an image here and now, for the reading process, in the scalar type that the file has. The first bytes of a file tell its format, not
  * its name: NRRD, NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK, MGH, GIPL, MRC. A fourth dimension is time; last dimensions
  * of length 1 do not count, so that an image with one frame is a 3D image. Never prints.
  *
@@ -53,11 +53,12 @@ ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& all
 
 /**
  * Reads an image in a process of its own, which may open no other files and has limits of memory and time: whatever
- * the file does to the libraries that read it, this process lives. Where no process can be started, reads here.
+ * the file does to the libraries that read it, this process lives. There is no other way: if the process cannot be
+ * started, the image is not read.
  *
  * Any thread may call it at any time.
  *
- * @throws FileError as above, and if the reading process crashed or reached a limit
+ * @throws FileError as above, and if the reading process cannot be started, crashed or reached a limit
  */
 ImageAnswer ReadImage(const ImageRequest& request);
 

@@ -34,31 +34,28 @@ fs::path FolderOf(const fs::path& image)
                                           : fs::path(".");
 }
 
-/** What the limits depend on: the image's own size, or that of all in its folder, since headers name other files. */
-std::uint64_t SizeOfFiles(const fs::path& image)
+/** In bytes: that of the image, or of all in it if it is a folder. */
+std::uint64_t BytesOf(const fs::path& image)
 {
-  constexpr std::uint64_t smallHeader = 1 << 20;
   std::error_code ignored;
-  const std::uintmax_t own = fs::file_size(image, ignored);
-  if (!ignored && own > smallHeader)
-  {
-    return own;
-  }
   std::uint64_t sum = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator(FolderOf(image), ignored))
+  for (const fs::directory_entry& entry : fs::directory_iterator(image, ignored))
   {
     std::error_code failed;
     const std::uintmax_t size = entry.is_regular_file(failed) ? entry.file_size(failed) : 0;
     sum += failed ? 0 : size;
   }
-  return sum;
+  const std::uintmax_t own = fs::file_size(image, ignored);
+  return ignored ? sum : own;
 }
 
-void Limit(int resource, std::uint64_t most)
+/** The process may raise the limit up to `mostEver`. */
+void Limit(int resource, std::uint64_t most, std::uint64_t mostEver)
 {
   rlimit limit{};
   if (getrlimit(resource, &limit) == 0)
   {
+    limit.rlim_max = std::min<rlim_t>(limit.rlim_max, mostEver);
     limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, most);
     setrlimit(resource, &limit);
   }
@@ -128,17 +125,29 @@ void ForbidOtherFiles(const ImageRequest&) {}
 
 void Confine(const ImageRequest& request)
 {
-  const std::uint64_t size = SizeOfFiles(request.Path);
-  constexpr std::uint64_t memory = 512ULL << 20;
-  constexpr std::uint64_t seconds = 60;
-  constexpr std::uint64_t bytesInASecond = 2'000'000;
+  const std::uint64_t size = BytesOf(request.Path);
   if (!HasSanitizer)
   {
-    Limit(RLIMIT_DATA, memory + 16 * size);
+    const std::uint64_t memory = (512ULL << 20) + 16 * size;
+    Limit(RLIMIT_DATA, memory, memory);
   }
-  Limit(RLIMIT_CPU, seconds + size / bytesInASecond);
-  Limit(RLIMIT_CORE, 0);
+  constexpr std::uint64_t bytesInASecond = 2'000'000;
+  constexpr std::uint64_t anHour = 3600;
+  Limit(RLIMIT_CPU, 60 + size / bytesInASecond, anHour);
+  Limit(RLIMIT_CORE, 0, 0);
   ForbidOtherFiles(request);
+}
+
+void AllowTimeFor(std::uint64_t bytesOfVoxels)
+{
+  constexpr std::uint64_t bytesInASecond = 10'000'000;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_CPU, &limit) == 0)
+  {
+    limit.rlim_cur =
+      std::min<rlim_t>(limit.rlim_max, limit.rlim_cur + bytesOfVoxels / bytesInASecond);
+    setrlimit(RLIMIT_CPU, &limit);
+  }
 }
 
 } // namespace voxplex::io

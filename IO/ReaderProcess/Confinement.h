@@ -25,13 +25,18 @@ inline constexpr bool HasSanitizer = false;
  * For the rest of its life this process
  * - may read what is in the folder of the image and below, and no other file, and write none (Linux 5.13 and newer with
  *   Landlock; elsewhere it may do what its user may);
- * - may take 512 MiB of memory and 16 times the size of the files, beside that of the voxels that it gives away;
- * - may compute for a minute and a second for each two megabytes of the files.
+ * - may take 512 MiB of memory and 16 times the size of the image, beside that of the voxels that it gives away;
+ * - may compute for a minute and a second for each two megabytes of the image, or as long as AllowTimeFor() says, at
+ *   most an hour.
  *
- * Of a folder, all files in it count, and what links in it lead to may be read. Builds with sanitizers have no limit of
+ * If the image is a folder, all files in it count, and what links in it lead to may be read. Data files that a header
+ * names do not count: voxplex reads them itself, straight into the voxels. Builds with sanitizers have no limit of
  * memory.
  */
 void Confine(const ImageRequest& request);
+
+/** Before voxels are read: a second more for each ten megabytes of them. A claim of them has been compared with the files. */
+void AllowTimeFor(std::uint64_t bytesOfVoxels);
 
 } // namespace voxplex::io
 

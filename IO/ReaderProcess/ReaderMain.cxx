@@ -50,8 +50,12 @@ AnswerMessage Read(const ImageRequest& request)
   AnswerMessage message;
   try
   {
-    message.Answer =
-      ReadImageHere(request, [&memory](std::size_t bytes) { return memory.Allocate(bytes); });
+    message.Answer = ReadImageHere(request,
+      [&memory](std::size_t bytes)
+      {
+        AllowTimeFor(bytes);
+        return memory.Allocate(bytes);
+      });
     message.Offset = memory.OffsetOf(message.Answer.Image.Scalars.get());
   }
   catch (const FileError& error)
@@ -72,6 +76,7 @@ int main(int argc, char** argv)
 #if defined(__linux__)
   prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
+  std::signal(SIGXFSZ, SIG_IGN); // shared memory counts as a file: no memory is a message
   const ImageRequest request{ argv[1], argv[2], std::strcmp(argv[3], "1") == 0,
     std::strcmp(argv[4], "1") == 0 ? Overlap::Order : Overlap::Smallest,
     ToNumber<double>(argv[5]).value_or(0.5) };

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Images are read by a process of their own, and by this one where none can be started."""
+"""Images are read by a process of their own, and by nothing else."""
 import os
 import resource
 import shutil
@@ -67,20 +67,43 @@ class ReadingProcess(FolderTestCase):
         finally:
             signal.signal(signal.SIGCHLD, before)
 
-    def test_no_process(self):
-        """With too few file descriptors for a process the image is the same, read by this one. Nothing is printed."""
+    def test_no_descriptors_for_a_process(self):
         used = {int(name) for name in os.listdir("/proc/self/fd")}
         free = [number for number in range(max(used) + 8) if number not in used]
         limits = resource.getrlimit(resource.RLIMIT_NOFILE)
-        for count in (2, 3, 4, 5):
+        for count in (0, 1, 2, 3):
             with self.subTest(count):
                 resource.setrlimit(resource.RLIMIT_NOFILE, (free[count], limits[1]))
                 try:
-                    image = self.read(self.path)
+                    self.refused("cannot read '.*i.nrrd': the program that reads images, '.*voxplexImageReader', "
+                                 "cannot be started: Too many open files", self.path)
                 finally:
                     resource.setrlimit(resource.RLIMIT_NOFILE, limits)
-                np.testing.assert_array_equal(voxels(image), ARRAY)
-                self.assertEqual(image.GetSpacing(), GEOMETRY.spacing)
+
+    def test_process_that_ends_before_its_greeting(self):
+        """A hostile file could want that the host reads it instead."""
+        (self.folder / "libtiff.so.6").write_bytes(b"no library")
+        before = os.environ.get("LD_LIBRARY_PATH")
+        os.environ["LD_LIBRARY_PATH"] = str(self.folder)
+        try:
+            self.refused("cannot read '.*i.nrrd': the program that reads images, '.*voxplexImageReader', does not answer, "
+                         "and ended with status 127: .*install Voxplex again", self.path)
+        finally:
+            os.environ.pop("LD_LIBRARY_PATH")
+            if before is not None:
+                os.environ["LD_LIBRARY_PATH"] = before
+
+    def test_limit_on_the_size_of_files(self):
+        """Voxels are in shared memory, which counts as a file."""
+        limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+        for size, expected in ((100 << 20, ""), (512, "cannot read '.*i.nrrd': it does not fit into memory")):
+            with self.subTest(size):
+                resource.setrlimit(resource.RLIMIT_FSIZE, (size, limits[1]))
+                try:
+                    reader = self.reader(self.path)
+                finally:
+                    resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+                self.assertRegex(reader.GetErrorMessage(), expected or "^$")
 
     def test_voxels_can_be_written(self):
         """They are the host's own memory."""
@@ -106,9 +129,8 @@ class ReadingProcess(FolderTestCase):
         if not shutil.which("localedef") or not Path("/usr/share/i18n/locales/de_DE").exists():
             self.skipTest("localedef and its sources are not installed (apt-get install locales)")
         subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", self.folder / "de_DE.UTF-8"], check=False, capture_output=True)
-        code = ("import locale, resource, voxplex; locale.setlocale(locale.LC_ALL, 'de_DE.UTF-8')\n"
+        code = ("import locale, voxplex; locale.setlocale(locale.LC_ALL, 'de_DE.UTF-8')\n"
                 "assert locale.localeconv()['decimal_point'] == ','\n"
-                "if %r: resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 30, 1 << 30))  # no process\n"
                 "reader = voxplex.vtkSegmentationReader(); reader.SetFileName(%r); reader.Update()\n"
                 "print(reader.GetOutput().GetSpacing(), reader.GetOutput().GetOrigin())\n")
         text = images.write_nrrd(self.folder / "text.nrrd", ARRAY.astype(np.float32) + 0.5, GEOMETRY,
@@ -117,11 +139,10 @@ class ReadingProcess(FolderTestCase):
         Path(text).write_bytes(data + b"\n\n" + " ".join(map(str, ARRAY.ravel() + 0.5)).encode())
         meta = images.write_metaimage(self.folder / "i.mha", ARRAY, GEOMETRY)
         for path in (self.path, text, meta, images.write_nifti(self.folder / "i.nii", ARRAY, GEOMETRY)):
-            for here in (False, True):
-                with self.subTest(path=path, here=here):
-                    done = self.python(code % (here, str(path)), env={**os.environ, "LOCPATH": str(self.folder)})
-                    self.assertEqual(done.stderr, "")
-                    self.assertEqual(done.stdout, "%r %r\n" % (GEOMETRY.spacing, GEOMETRY.origin))
+            with self.subTest(path=path):
+                done = self.python(code % str(path), env={**os.environ, "LOCPATH": str(self.folder)})
+                self.assertEqual(done.stderr, "")
+                self.assertEqual(done.stdout, "%r %r\n" % (GEOMETRY.spacing, GEOMETRY.origin))
 
     def test_forks_of_the_host(self):
         """A child of the host's, as multiprocessing makes them, reads as well."""

@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Readers.h"
+
+#include "Placement.h"
+#include "Space.h"
+#include "Text.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkImageData.h>
+#include <vtkMatrix3x3.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace voxplex::io
+{
+namespace
+{
+
+// --- Which array
+
+struct Labels
+{
+  vtkDataArray* Array = nullptr;
+  bool AreCells = false;
+};
+
+bool IsCandidate(vtkDataSetAttributes* data, int index)
+{
+  vtkDataArray* const array = data->GetArray(index); // null for texts
+  const bool isOtherAttribute = data->IsArrayAnAttribute(index) >= 0 && array != data->GetScalars();
+  return array && array->GetNumberOfComponents() == 1 && !isOtherAttribute &&
+    (!array->GetName() || std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()));
+}
+
+std::string NameOf(const Labels& labels)
+{
+  const char* name = labels.Array->GetName();
+  return "'" + Excerpt(name ? name : "") + "' of the " + (labels.AreCells ? "cells" : "points");
+}
+
+void CheckComponents(vtkDataSetAttributes* data)
+{
+  vtkDataArray* const scalars = data->GetScalars();
+  const int components = scalars ? scalars->GetNumberOfComponents() : 1;
+  RefuseIf(components != 1, "it has ", components,
+    " components a voxel (colours or vectors); a label image has one: export it as a label map "
+    "first");
+}
+
+Labels ChooseLabels(vtkImageData* image)
+{
+  std::vector<Labels> active;
+  std::vector<Labels> candidates;
+  for (const bool areCells : { false, true })
+  {
+    vtkDataSetAttributes* const data = areCells
+      ? static_cast<vtkDataSetAttributes*>(image->GetCellData())
+      : static_cast<vtkDataSetAttributes*>(image->GetPointData());
+    CheckComponents(data);
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      if (IsCandidate(data, i))
+      {
+        candidates.push_back({ data->GetArray(i), areCells });
+      }
+    }
+    if (data->GetScalars())
+    {
+      active.push_back({ data->GetScalars(), areCells });
+    }
+  }
+  const std::vector<Labels>& choice = active.empty() ? candidates : active;
+  RefuseIf(choice.empty(), "it has no array of numbers with one component for its points or cells");
+  if (choice.size() > 1)
+  {
+    std::string names;
+    for (const Labels& labels : choice)
+    {
+      names += (names.empty() ? "" : ", ") + NameOf(labels);
+    }
+    Refuse("it has several arrays that could be labels (", names,
+      "): make one of them the active scalars, or save it alone");
+  }
+  return choice.front();
+}
+
+// --- The image
+
+/** A bit becomes a byte. */
+ScalarType ScalarTypeOf(vtkDataArray* array)
+{
+  switch (array->GetDataType())
+  {
+    case VTK_BIT:
+      return ScalarType::UInt8;
+    case VTK_FLOAT:
+      return ScalarType::Float32;
+    case VTK_DOUBLE:
+      return ScalarType::Float64;
+    default:
+      break;
+  }
+  const bool isSigned = array->GetDataTypeMin() < 0;
+  const auto type = IntegerType(static_cast<std::size_t>(array->GetDataTypeSize()), isSigned);
+  RefuseIf(!type, "its numbers are of the type ", Excerpt(array->GetDataTypeAsString()),
+    ", which voxplex does not read");
+  return *type;
+}
+
+/** As field data say, which vtkSegmentationReader and 3D Slicer write. */
+Space SpaceOf(vtkImageData* image, Reading& reading)
+{
+  const std::vector<std::string> texts = TextsOf(image->GetFieldData(), "SPACE");
+  const std::string space = texts.size() == 1 ? texts.front() : ToString(Space::LPS);
+  if (space != ToString(Space::LPS) && space != ToString(Space::RAS))
+  {
+    reading.Warnings.push_back(
+      "it does not say where left, posterior and superior are (SPACE is '" + Excerpt(space) +
+      "'); its coordinates are taken for LPS");
+  }
+  return space == ToString(Space::RAS) ? Space::RAS : Space::LPS;
+}
+
+/** Points or cells lie from the first on; a cell is half a step from its first point. */
+void SetGeometry(ScalarImage& result, vtkImageData* image, Space space, bool areCells)
+{
+  const std::array<double, 3> signs = SignsFromLPS(space);
+  std::array<int, 3> points{};
+  image->GetDimensions(points.data());
+  const int* const extent = image->GetExtent();
+  std::array<double, 3> first{};
+  std::vector<std::int64_t> sizes;
+  std::array<Vector3, 3> steps{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto a = static_cast<std::size_t>(axis);
+    const bool isBetween = areCells && points[a] > 1;
+    sizes.push_back(isBetween ? points[a] - 1 : points[a]);
+    RefuseIf(!(image->GetSpacing()[axis] > 0), "the voxel spacing along axis ", axis,
+      " is not positive in its header: correct the header");
+    first[a] = extent[2 * axis] + (isBetween ? 0.5 : 0.0);
+    for (int row = 0; row < 3; ++row)
+    {
+      const auto r = static_cast<std::size_t>(row);
+      steps[a][r] =
+        signs[r] * image->GetDirectionMatrix()->GetElement(row, axis) * image->GetSpacing()[axis];
+    }
+  }
+  Vector3 origin{};
+  image->TransformContinuousIndexToPhysicalPoint(first.data(), origin.data());
+  std::transform(signs.begin(), signs.end(), origin.begin(), origin.begin(), std::multiplies<>());
+  SetSizes(result, sizes);
+  Place(result, steps, origin);
+}
+
+/** The flags of vtkGhostType hide points or cells. A point is hidden, too, if all cells around it are. */
+bool IsShown(vtkImageData* image, bool areCells, vtkIdType voxel, vtkIdList* around)
+{
+  if (areCells)
+  {
+    return image->IsCellVisible(voxel) != 0;
+  }
+  vtkUnsignedCharArray* const flags = image->GetCellGhostArray();
+  bool hasShownCell = !flags;
+  if (flags)
+  {
+    image->GetPointCells(voxel, around);
+    hasShownCell = std::any_of(around->begin(), around->end(),
+      [flags](vtkIdType cell)
+      { return !(flags->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL); });
+  }
+  return image->IsPointVisible(voxel) && hasShownCell;
+}
+
+void CopyNumbers(vtkDataArray* array, std::byte* to, std::size_t size)
+{
+  const vtkIdType count = array->GetNumberOfTuples();
+  if (array->GetDataType() == VTK_BIT)
+  {
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      to[i] = array->GetComponent(i, 0) != 0 ? std::byte{ 1 } : std::byte{ 0 };
+    }
+    return;
+  }
+  std::memcpy(to, array->GetVoidPointer(0), static_cast<std::size_t>(count) * size);
+}
+
+} // namespace
+
+ScalarImage PlaceOfVTKImage(vtkImageData* image, Reading& reading)
+{
+  const Labels labels = ChooseLabels(image);
+  ScalarImage result;
+  result.Type = ScalarTypeOf(labels.Array);
+  SetGeometry(result, image, SpaceOf(image, reading), labels.AreCells);
+  return result;
+}
+
+ScalarImage TakeVTKImage(vtkImageData* image, Reading& reading)
+{
+  ScalarImage result = PlaceOfVTKImage(image, reading);
+  const Labels labels = ChooseLabels(image);
+  reading.Labels = GetLabelTable(image->GetFieldData());
+  LeaveOutOtherTexts(reading.Labels, reading.Warnings);
+  const auto count = static_cast<vtkIdType>(result.NumberOfVoxels());
+  RefuseIf(labels.Array->GetNumberOfTuples() != count, "it is truncated or damaged: its array ",
+    NameOf(labels), " has ", labels.Array->GetNumberOfTuples(), " numbers of ", count);
+  const bool areBits = labels.Array->GetDataType() == VTK_BIT;
+  const std::size_t size = areBits ? 1 : static_cast<std::size_t>(labels.Array->GetDataTypeSize());
+  result.Scalars = reading.Allocate(result.NumberOfVoxels() * size);
+  auto* const numbers = static_cast<std::byte*>(result.Scalars.get());
+  CopyNumbers(labels.Array, numbers, size);
+  vtkNew<vtkIdList> around;
+  const bool hidesSome = image->HasAnyBlankCells(); // and so where points are hidden
+  for (vtkIdType voxel = 0; hidesSome && voxel < count; ++voxel)
+  {
+    if (!IsShown(image, labels.AreCells, voxel, around))
+    {
+      std::memset(numbers + static_cast<std::size_t>(voxel) * size, 0, size);
+    }
+  }
+  return result;
+}
+
+} // namespace voxplex::io
