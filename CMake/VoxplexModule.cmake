@@ -39,7 +39,6 @@ vtk_module_add_module(VTK::Voxplex
     ${voxplex_filters}/Private/Execution.h
     ${voxplex_filters}/Private/FiguresJson.h
     ${voxplex_filters}/Private/FrameGathering.h
-    ${voxplex_filters}/Private/HiddenVoxels.h
     ${voxplex_filters}/Private/LabelledMesh.h
     ${voxplex_filters}/Private/Lists.h
     ${voxplex_filters}/Private/MeshOutput.h
@@ -55,7 +54,6 @@ vtk_module_add_module(VTK::Voxplex
   SOURCES
     ${voxplex_filters}/Private/ChosenArray.cxx
     ${voxplex_filters}/Private/ElementSizes.cxx
-    ${voxplex_filters}/Private/HiddenVoxels.cxx
     ${voxplex_filters}/Private/LabelledMesh.cxx
     ${voxplex_filters}/Private/MeshOutput.cxx
     ${voxplex_filters}/Private/MeshingJson.cxx
@@ -68,6 +66,7 @@ vtk_module_add_module(VTK::Voxplex
     ${voxplex_filters}/Private/SegmentationRepair.cxx
     ${voxplex_filters}/Private/SmpThreads.cxx
     ${voxplex_filters}/Private/ThinRidges.cxx
+    ${voxplex_root}/Segmentation/HiddenVoxels.cxx
     $<TARGET_OBJECTS:VoxplexExact>
     $<FILTER:$<TARGET_OBJECTS:VoxplexKernel>,EXCLUDE,[.]gch$> # a precompiled header is no object
     $<TARGET_OBJECTS:VoxplexParameters>)
@@ -77,7 +76,8 @@ vtk_module_include(VTK::Voxplex
     "$<BUILD_INTERFACE:${voxplex_filters}>"
   PRIVATE
     "${voxplex_root}/Kernel"
-    "${voxplex_root}/Parameters") # and Filters/, for Private/
+    "${voxplex_root}/Parameters"
+    "${voxplex_root}/Segmentation") # and Filters/, for Private/
 
 # The kernel's headers want C++20; the module's own headers do not.
 vtk_module_compile_features(VTK::Voxplex

@@ -4,7 +4,7 @@
 
 #include "Base/Error.h"
 #include "Base/NumberText.h"
-#include "Private/HiddenVoxels.h"
+#include "HiddenVoxels.h"
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
@@ -16,7 +16,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <stdexcept>
+#include <vector>
 
 namespace voxplex
 {
@@ -103,6 +106,43 @@ ImageFrame FrameOf(vtkImageData* image, bool cells, const std::string& what)
   return MakeImageFrame(dimensions, steps, first, what);
 }
 
+std::vector<char> HiddenVoxelsOf(vtkImageData* image, bool cells, const std::string& what)
+{
+  try
+  {
+    return FindHiddenVoxels(image, cells);
+  }
+  catch (const std::length_error& error)
+  {
+    throw InputError("The " + what + " cannot be used: " + error.what() + ".");
+  }
+}
+
+/** A copy in which hidden voxels have the label 0, or are NaN. Grey values become real numbers for that. */
+vtkSmartPointer<vtkDataArray> WithoutHidden(
+  vtkDataArray* array, const std::vector<char>& hidden, ImageContent content)
+{
+  int type = array->GetDataType() == VTK_BIT ? VTK_UNSIGNED_CHAR : array->GetDataType();
+  double value = 0.0;
+  if (content == ImageContent::GreyValues)
+  {
+    const bool fitsInFloat = type == VTK_FLOAT || array->GetDataTypeSize() <= 2;
+    type = fitsInFloat ? VTK_FLOAT : VTK_DOUBLE;
+    value = std::numeric_limits<double>::quiet_NaN();
+  }
+  auto copy = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+  copy->DeepCopy(array);
+  copy->SetName(array->GetName());
+  for (std::size_t i = 0; i < hidden.size(); ++i)
+  {
+    for (int c = 0; hidden[i] && c < copy->GetNumberOfComponents(); ++c)
+    {
+      copy->SetComponent(static_cast<vtkIdType>(i), c, value);
+    }
+  }
+  return copy;
+}
+
 } // namespace
 
 ChosenArray Choose(vtkImageData* image, vtkAbstractArray* chosen, int association,
@@ -119,7 +159,7 @@ ChosenArray Choose(vtkImageData* image, vtkAbstractArray* chosen, int associatio
       std::to_string(result.Array->GetNumberOfTuples()) + " values; the dimensions ask for " +
       std::to_string(n[0] * n[1] * n[2]) + ".");
   }
-  const std::vector<char> hidden = FindHiddenVoxels(image, cells, what);
+  const std::vector<char> hidden = HiddenVoxelsOf(image, cells, what);
   if (!hidden.empty())
   {
     result.Array = WithoutHidden(result.Array, hidden, content);

@@ -46,7 +46,8 @@ struct ChosenArray
  * @param association vtkDataObject::FIELD_ASSOCIATION_POINTS or _CELLS
  * @param what what the image is called in messages
  * @throws InputError if there is no array, if it does not hold numbers, if it has not as many tuples
- * as the image has voxels, if the image is empty or lies nowhere, and what FindHiddenVoxels() throws
+ * as the image has voxels, if the image is empty or lies nowhere, and if vtkGhostType has not one value for each
+ * point or cell
  */
 ChosenArray Choose(vtkImageData* image, vtkAbstractArray* chosen, int association,
   ImageContent content, const std::string& what);

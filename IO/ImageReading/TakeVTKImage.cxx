@@ -2,18 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Readers.h"
 
+#include "HiddenVoxels.h"
 #include "Placement.h"
 #include "Space.h"
 #include "Text.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <array>
@@ -166,25 +164,6 @@ void SetGeometry(ScalarImage& result, vtkImageData* image, Space space, bool are
   Place(result, steps, origin);
 }
 
-/** The flags of vtkGhostType hide points or cells. A point is hidden, too, if all cells around it are. */
-bool IsShown(vtkImageData* image, bool areCells, vtkIdType voxel, vtkIdList* around)
-{
-  if (areCells)
-  {
-    return image->IsCellVisible(voxel) != 0;
-  }
-  vtkUnsignedCharArray* const flags = image->GetCellGhostArray();
-  bool hasShownCell = !flags;
-  if (flags)
-  {
-    image->GetPointCells(voxel, around);
-    hasShownCell = std::any_of(around->begin(), around->end(),
-      [flags](vtkIdType cell)
-      { return !(flags->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL); });
-  }
-  return image->IsPointVisible(voxel) && hasShownCell;
-}
-
 void CopyNumbers(vtkDataArray* array, std::byte* to, std::size_t size)
 {
   const vtkIdType count = array->GetNumberOfTuples();
@@ -224,13 +203,12 @@ ScalarImage TakeVTKImage(vtkImageData* image, Reading& reading)
   result.Scalars = reading.Allocate(result.NumberOfVoxels() * size);
   auto* const numbers = static_cast<std::byte*>(result.Scalars.get());
   CopyNumbers(labels.Array, numbers, size);
-  vtkNew<vtkIdList> around;
-  const bool hidesSome = image->HasAnyBlankCells(); // and so where points are hidden
-  for (vtkIdType voxel = 0; hidesSome && voxel < count; ++voxel)
+  const std::vector<char> hidden = FindHiddenVoxels(image, labels.AreCells);
+  for (std::size_t voxel = 0; voxel < hidden.size(); ++voxel)
   {
-    if (!IsShown(image, labels.AreCells, voxel, around))
+    if (hidden[voxel])
     {
-      std::memset(numbers + static_cast<std::size_t>(voxel) * size, 0, size);
+      std::memset(numbers + voxel * size, 0, size);
     }
   }
   return result;

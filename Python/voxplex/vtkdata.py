@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any, List, Optional, Sequence, Tuple
 
 import numpy
@@ -19,10 +20,12 @@ try:
     from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
     if (vtkVersion().GetVTKMajorVersion(), vtkVersion().GetVTKMinorVersion()) < (9, 1):
         raise ImportError(f"VTK is {vtkVersion().GetVTKVersion()}")
+    from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 except ImportError as missing:
     raise ImportError(f"this needs VTK 9.1 or newer (pip install 'vtk>=9.1'): {missing}", name="vtkmodules") from missing
 
 from .fields import TEXTS, Fields, texts_of
+from .files import read_segmentation, temporary_folder
 from .images import Image, from_components
 from .xmlfiles import ACTIVE, CELL_TYPE, CORNERS, IDS, Arrays, check, native
 
@@ -153,12 +156,22 @@ def _voxels(image: vtkImageData) -> NDArray[Any]:
 
 
 def _mask(image: vtkImageData, voxels: NDArray[Any]) -> Optional[NDArray[numpy.bool_]]:
-    of_cells = _scalars(image)[1]
-    ghosts = (image.GetCellData() if of_cells else image.GetPointData()).GetArray(_GHOSTS)
-    if ghosts is None:
+    """What the image hides. The program knows, which reads an image of ones that hides the same."""
+    shown = vtkImageData()
+    shown.CopyStructure(image)
+    for data, shown_data in ((image.GetPointData(), shown.GetPointData()), (image.GetCellData(), shown.GetCellData())):
+        if data.HasArray(_GHOSTS):
+            shown_data.AddArray(data.GetArray(_GHOSTS))
+    if not (shown.GetPointData().HasArray(_GHOSTS) or shown.GetCellData().HasArray(_GHOSTS)):
         return None
-    hidden = vtkDataSetAttributes.HIDDENCELL if of_cells else vtkDataSetAttributes.HIDDENPOINT
-    return (vtk_to_numpy(ghosts).reshape(voxels.shape[:3]) & hidden) != 0
+    ones = _named("Labels", numpy.ones(voxels.shape[:3], numpy.uint8).reshape(-1))
+    (shown.GetCellData() if _scalars(image)[1] else shown.GetPointData()).SetScalars(ones)
+    with temporary_folder() as folder:
+        writer = vtkXMLImageDataWriter()
+        writer.SetFileName(os.path.join(folder, "image.vti"))
+        writer.SetInputData(shown)
+        writer.Write()
+        return read_segmentation(writer.GetFileName()).voxels == 0
 
 
 def _place(image: vtkImageData) -> Tuple[Any, Any, Any]:

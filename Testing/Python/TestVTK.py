@@ -15,7 +15,7 @@ from phantoms import ball, beating, brick
 try:
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     from vtkmodules.vtkCommonDataModel import (
-        VTK_POLY_VERTEX, VTK_TETRA, VTK_TRIANGLE, vtkImageData, vtkPolyData, vtkUnstructuredGrid)
+        VTK_POLY_VERTEX, VTK_TETRA, VTK_TRIANGLE, vtkDataSetAttributes, vtkImageData, vtkPolyData, vtkUnstructuredGrid)
     from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 except ModuleNotFoundError as missing:
     raise unittest.SkipTest("there is no VTK") from missing
@@ -135,6 +135,39 @@ class Images(unittest.TestCase):
             image = voxplex.Image(numpy.ma.masked_array(labels.astype(kind), mask)).to_vtk()
             self.assertEqual(vtk_to_numpy(image.GetPointData().GetArray("vtkGhostType")).sum(), 2 * mask.sum())
             self.assertTrue(same(expected, voxplex.mesh(image, 2.0, threads=1)), kind)
+
+    def test_hidden_by_points_and_cells(self):
+        """By the rule of the program and the filters (HiddenVoxels.h)."""
+        random = numpy.random.default_rng(1)
+        flags = [0, 0, 0, vtkDataSetAttributes.HIDDENCELL, vtkDataSetAttributes.REFINEDCELL, vtkDataSetAttributes.DUPLICATECELL]
+        point_flags = [0, 0, 0, vtkDataSetAttributes.HIDDENPOINT, vtkDataSetAttributes.DUPLICATEPOINT]
+        for of_cells in (False, True):
+            for hides in ("points", "cells", "both"):
+                image = vtkImageData()
+                image.SetExtent(1, 5, 0, 4, 2, 5)
+                data, shape = (image.GetCellData(), (3, 4, 4)) if of_cells else (image.GetPointData(), (4, 5, 5))
+                data.SetScalars(numpy_to_vtk(numpy.full(shape, 7, numpy.uint8).reshape(-1), deep=True))
+                points = numpy.array(random.choice(point_flags, (4, 5, 5)), numpy.uint8)
+                cells = numpy.array(random.choice(flags, (3, 4, 4)), numpy.uint8)
+                for name, target, ghosts in (("points", image.GetPointData(), points), ("cells", image.GetCellData(), cells)):
+                    if hides in (name, "both"):
+                        array = numpy_to_vtk(ghosts.reshape(-1), deep=True)
+                        array.SetName("vtkGhostType")
+                        target.AddArray(array)
+                    else:
+                        ghosts[:] = 0
+                hidden_points = (points & vtkDataSetAttributes.HIDDENPOINT) != 0
+                hidden_cells = (cells & (vtkDataSetAttributes.HIDDENCELL | vtkDataSetAttributes.REFINEDCELL)) != 0
+                around = numpy.ones((4, 5, 5), bool)
+                corner = numpy.zeros((3, 4, 4), bool)
+                for k, j, i in numpy.ndindex(2, 2, 2):
+                    around[k:k + 3, j:j + 4, i:i + 4] &= hidden_cells
+                    corner |= hidden_points[k:k + 3, j:j + 4, i:i + 4]
+                expected = hidden_cells | corner if of_cells else hidden_points | around
+                with self.subTest(of_cells=of_cells, hides=hides):
+                    self.assertTrue(0 < expected.sum() < expected.size)
+                    read = voxplex.Image.from_vtk(image)
+                    numpy.testing.assert_array_equal(read.mask, expected)
 
 
 class Sources(unittest.TestCase):

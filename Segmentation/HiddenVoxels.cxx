@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/HiddenVoxels.h"
-
-#include "Base/Error.h"
+#include "HiddenVoxels.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
@@ -11,8 +9,8 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace voxplex
 {
@@ -25,9 +23,9 @@ constexpr int HiddenBits = Attributes::HIDDENCELL | Attributes::REFINEDCELL; // 
 
 /**
  * Whether a point or cell has one of these bits; the array may be null.
- * @throws InputError unless each of `count` points or cells has a value
+ * @throws std::length_error unless each of `count` points or cells has a value
  */
-bool HasMarked(vtkUnsignedCharArray* ghosts, int bits, vtkIdType count, const std::string& what)
+bool HasMarked(vtkUnsignedCharArray* ghosts, int bits, vtkIdType count)
 {
   if (ghosts == nullptr)
   {
@@ -35,9 +33,9 @@ bool HasMarked(vtkUnsignedCharArray* ghosts, int bits, vtkIdType count, const st
   }
   if (ghosts->GetNumberOfValues() != count)
   {
-    throw InputError("The array '" + std::string(Attributes::GhostArrayName()) + "' of the " +
-      what + " has " + std::to_string(ghosts->GetNumberOfValues()) +
-      " values; the dimensions ask for " + std::to_string(count) + ".");
+    throw std::length_error("the array '" + std::string(Attributes::GhostArrayName()) + "' has " +
+      std::to_string(ghosts->GetNumberOfValues()) + " values; the dimensions ask for " +
+      std::to_string(count));
   }
   const unsigned char* const first = ghosts->GetPointer(0);
   return std::any_of(
@@ -60,12 +58,12 @@ bool IsAmongHiddenCells(vtkImageData* image, vtkIdType point, vtkIdList* cells)
 } // namespace
 
 //----------------------------------------------------------------------------------------------------
-std::vector<char> FindHiddenVoxels(vtkImageData* image, bool cells, const std::string& what)
+std::vector<char> FindHiddenVoxels(vtkImageData* image, bool cells)
 {
-  const bool hasHiddenPoints = HasMarked(
-    image->GetPointGhostArray(), Attributes::HIDDENPOINT, image->GetNumberOfPoints(), what);
+  const bool hasHiddenPoints =
+    HasMarked(image->GetPointGhostArray(), Attributes::HIDDENPOINT, image->GetNumberOfPoints());
   const bool hasHiddenCells =
-    HasMarked(image->GetCellGhostArray(), HiddenBits, image->GetNumberOfCells(), what);
+    HasMarked(image->GetCellGhostArray(), HiddenBits, image->GetNumberOfCells());
   if (!hasHiddenPoints && !hasHiddenCells)
   {
     return {};
@@ -81,30 +79,6 @@ std::vector<char> FindHiddenVoxels(vtkImageData* image, bool cells, const std::s
     hidden.push_back(isHidden ? 1 : 0);
   }
   return hidden;
-}
-
-vtkSmartPointer<vtkDataArray> WithoutHidden(
-  vtkDataArray* array, const std::vector<char>& hidden, ImageContent content)
-{
-  int type = array->GetDataType() == VTK_BIT ? VTK_UNSIGNED_CHAR : array->GetDataType();
-  double value = 0.0;
-  if (content == ImageContent::GreyValues)
-  {
-    const bool fitsInFloat = type == VTK_FLOAT || array->GetDataTypeSize() <= 2;
-    type = fitsInFloat ? VTK_FLOAT : VTK_DOUBLE;
-    value = std::numeric_limits<double>::quiet_NaN();
-  }
-  auto copy = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
-  copy->DeepCopy(array);
-  copy->SetName(array->GetName());
-  for (std::size_t i = 0; i < hidden.size(); ++i)
-  {
-    for (int c = 0; hidden[i] && c < copy->GetNumberOfComponents(); ++c)
-    {
-      copy->SetComponent(static_cast<vtkIdType>(i), c, value);
-    }
-  }
-  return copy;
 }
 
 } // namespace voxplex
