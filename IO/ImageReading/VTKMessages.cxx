@@ -5,25 +5,12 @@
 #include "FileError.h"
 #include "Text.h"
 
-#include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
-
 #include <cstddef>
 #include <string_view>
-#include <thread>
+#include <vtkObjectFactory.h>
 
 namespace voxplex::io
 {
-namespace
-{
-
-std::mutex& OneAtATime()
-{
-  static std::mutex mutex;
-  return mutex;
-}
-
-} // namespace
 
 class CollectingWindow : public vtkOutputWindow
 {
@@ -31,48 +18,24 @@ public:
   static CollectingWindow* New();
   vtkTypeMacro(CollectingWindow, vtkOutputWindow);
 
-  void DisplayText(const char* text) override { this->PassOn(&vtkOutputWindow::DisplayText, text); }
-  void DisplayDebugText(const char* text) override
-  {
-    this->PassOn(&vtkOutputWindow::DisplayDebugText, text);
-  }
-  void DisplayWarningText(const char* text) override
-  {
-    this->Collect(this->Warnings, &vtkOutputWindow::DisplayWarningText, text);
-  }
-  void DisplayErrorText(const char* text) override
-  {
-    this->Collect(this->Errors, &vtkOutputWindow::DisplayErrorText, text);
-  }
+  void DisplayText(const char*) override {}
+  void DisplayDebugText(const char*) override {}
+  void DisplayWarningText(const char* text) override { Collect(this->Warnings, text); }
+  void DisplayErrorText(const char* text) override { Collect(this->Errors, text); }
   /** VTK's functions without an object, which read arrays, have no errors but these. */
-  void DisplayGenericWarningText(const char* text) override
-  {
-    this->Collect(this->Errors, &vtkOutputWindow::DisplayGenericWarningText, text);
-  }
+  void DisplayGenericWarningText(const char* text) override { Collect(this->Errors, text); }
 
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
-  vtkSmartPointer<vtkOutputWindow> Others; ///< is told what other threads say
 
 private:
-  using Display = void (vtkOutputWindow::*)(const char*);
-
-  void PassOn(Display display, const char* text)
-  {
-    if (std::this_thread::get_id() != this->Reader)
-    {
-      (this->Others->*display)(text);
-    }
-  }
-
-  void Collect(std::vector<std::string>& list, Display display, const char* text)
+  static void Collect(std::vector<std::string>& list, const char* text)
   {
     constexpr std::size_t enough = 100;
-    if (std::this_thread::get_id() == this->Reader && list.size() < enough)
+    if (list.size() < enough)
     {
       list.push_back(Shorten(text));
     }
-    this->PassOn(display, text);
   }
 
   /** Without the source file, its line, the class and the address of the object. */
@@ -84,18 +47,15 @@ private:
     text = object == text.npos ? text : text.substr(object + 3);
     return Excerpt(text.substr(0, text.find('\n')), 200);
   }
-
-  std::thread::id Reader = std::this_thread::get_id();
 };
 
 vtkStandardNewMacro(CollectingWindow);
 
 VTKMessages::VTKMessages()
-  : Turn(OneAtATime())
-  , AreShown(vtkObject::GetGlobalWarningDisplay())
+  : AreShown(vtkObject::GetGlobalWarningDisplay())
+  , Before(vtkOutputWindow::GetInstance())
   , Window(vtkSmartPointer<CollectingWindow>::New())
 {
-  this->Window->Others = vtkOutputWindow::GetInstance();
   vtkOutputWindow::SetInstance(this->Window);
   vtkObject::SetGlobalWarningDisplay(1); // else VTK says nothing
 }
@@ -103,7 +63,7 @@ VTKMessages::VTKMessages()
 VTKMessages::~VTKMessages()
 {
   vtkObject::SetGlobalWarningDisplay(this->AreShown);
-  vtkOutputWindow::SetInstance(this->Window->Others);
+  vtkOutputWindow::SetInstance(this->Before);
 }
 
 void VTKMessages::CheckErrors() const

@@ -7,9 +7,9 @@
 #ifndef voxplex_io_VTKMessages_h
 #define voxplex_io_VTKMessages_h
 
+#include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
 
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -18,7 +18,7 @@ namespace voxplex::io
 
 class CollectingWindow;
 
-/** Collects the messages of this thread for as long as it lives. One thread reads at a time. */
+/** Collects the messages of all threads for as long as it lives: for programs in which nothing else uses VTK meanwhile. */
 class VTKMessages
 {
 public:
@@ -33,8 +33,8 @@ public:
   const std::vector<std::string>& Warnings() const;
 
 private:
-  std::unique_lock<std::mutex> Turn;
   int AreShown;
+  vtkSmartPointer<vtkOutputWindow> Before;
   vtkSmartPointer<CollectingWindow> Window;
 };
 
