@@ -8,7 +8,7 @@ function (voxplex_require found what debian_package variable)
       "Voxplex needs ${what}, which was not found.\n"
       "  Debian, Ubuntu: apt-get install ${debian_package}\n"
       "  Elsewhere: pass -D${variable}=<folder with its CMake config>.\n"
-      "  Scripts/install-dependencies installs everything on Debian 12.")
+      "  Scripts/install-dependencies installs all that building needs on Debian 12.")
   endif ()
 endfunction ()
 
