@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <new>
 #include <string_view>
+#include <vector>
 
 namespace fs = std::filesystem;
 
@@ -86,6 +88,37 @@ constexpr std::array<Stranger, 20> Strangers{ {
       : std::string("it is not an image in a format that voxplex reads; ") + readable);
 }
 
+/** Whether frames show what each voxel is: it has a number in one of them at most, or all of its numbers add up to 1. */
+template <typename T>
+bool AreClasses(const ScalarImage& image)
+{
+  constexpr double rounding = 1e-3;
+  const auto frames = static_cast<std::size_t>(image.Frames);
+  const std::size_t count = image.NumberOfVoxels();
+  const T* const voxels = static_cast<const T*>(image.Scalars.get());
+  std::vector<bool> isUsed(frames);
+  bool areApart = true;
+  bool addUpToOne = true;
+  for (std::size_t i = 0; i < count && (areApart || addUpToOne); ++i)
+  {
+    int used = 0;
+    double sum = 0.0;
+    for (std::size_t f = 0; f < frames; ++f)
+    {
+      const T voxel = voxels[f * count + i];
+      if (voxel != 0)
+      {
+        isUsed[f] = true;
+        ++used;
+        sum += static_cast<double>(voxel);
+      }
+    }
+    areApart = areApart && used <= 1;
+    addUpToOne = addUpToOne && std::abs(sum - 1.0) <= rounding;
+  }
+  return (areApart || addUpToOne) && std::count(isUsed.begin(), isUsed.end(), true) > 1;
+}
+
 ScalarImage ReadFile(const std::string& path, Reading& reading)
 {
   const InputFile file(path);
@@ -148,6 +181,14 @@ ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& all
   try
   {
     answer.Image = ReadFileOrFolder(request, reading);
+    if (answer.Image.Frames > 1 &&
+      Dispatch(answer.Image.Type,
+        [&answer](auto zero) { return AreClasses<decltype(zero)>(answer.Image); }))
+    {
+      reading.Warnings.push_back(
+        "its frames are taken for times, but look like classes (one-hot, or probabilities): if "
+        "they are, make a label image of them first (numpy.argmax along the axis of frames)");
+    }
   }
   catch (const FileError& error)
   {

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -47,6 +48,7 @@ struct Header
   double Intercept = 0.0;
   double FirstTime = 0.0;
   std::int64_t Units = 0;
+  std::int64_t Intent = 0;
   std::int64_t QFormCode = 0;
   std::int64_t SFormCode = 0;
   std::array<double, 6> QForm{}; ///< b, c, d of a quaternion, and the position of the first voxel
@@ -83,6 +85,7 @@ Header Parse(const Fields& fields, bool isFirst)
   header.Intercept = real(116, 184);
   header.FirstTime = real(136, 216);
   header.Units = isFirst ? fields.Get<std::uint8_t>(123) : fields.Get<std::int32_t>(500);
+  header.Intent = whole(68, 504);
   header.QFormCode = whole(252, 344);
   header.SFormCode = whole(254, 348);
   for (std::size_t i = 0; i < header.QForm.size(); ++i)
@@ -205,13 +208,33 @@ ScalarType TypeOf(const Header& header)
   return type->Scalars;
 }
 
+/** What a voxel is by the intent of the header, if that is several numbers; else empty. */
+std::string_view CompoundOf(std::int64_t intent)
+{
+  static const std::map<std::int64_t, std::string_view> compounds{ { 1004, "matrices" },
+    { 1005, "matrices" }, { 1006, "vectors" }, { 1007, "vectors" }, { 1008, "points" },
+    { 1009, "triangles" }, { 1010, "quaternions" }, { 2003, "colours" }, { 2004, "colours" },
+    // of FSL
+    { 2006, "vectors" }, { 2007, "coefficients" }, { 2008, "coefficients" },
+    { 2009, "coefficients" }, { 2016, "coefficients" }, { 2017, "coefficients" } };
+  const auto compound = compounds.find(intent);
+  return compound == compounds.end() ? std::string_view() : compound->second;
+}
+
 std::vector<std::int64_t> SizesOf(const Header& header)
 {
   constexpr std::int64_t most = 7;
   const std::int64_t count = header.Sizes[0];
   RefuseIf(count < 1 || count > most, "its header gives ", count,
     " dimensions, and the format has 1 to 7");
-  return { header.Sizes.begin() + 1, header.Sizes.begin() + 1 + count };
+  std::vector<std::int64_t> sizes{ header.Sizes.begin() + 1, header.Sizes.begin() + 1 + count };
+  const std::string_view compound = CompoundOf(header.Intent);
+  RefuseIf(!compound.empty() && count > 3 &&
+      std::any_of(sizes.begin() + 3, sizes.end(), [](std::int64_t size) { return size > 1; }),
+    "its voxels are ", compound, " (intent_code ", header.Intent,
+    "), and its further axes are no times; a label image has one label a voxel: export it as a "
+    "label map first");
+  return sizes;
 }
 
 /** From a voxel's indices to RAS, in the header's unit of length. */

@@ -257,6 +257,32 @@ refuse("2D", "dimension|slice", dim=(2, 5, 4, 3))
 refuse("2D, no further sizes", "dimension|slice", array=voxels("i2", shape=(1, 4, 5)), dim=(2, 5, 4, 0, 0))
 refuse("5D", "dim|components", array=voxels("i2", frames=2), dim=(5, 5, 4, 3, 1, 2))
 refuse("5D, vectors", "dim|vector|components", array=voxels("i2", frames=3), dim=(5, 5, 4, 3, 1, 3), intent_code=1007)
+for code, words in ((2003, "colours.*2003"), (2004, "colours.*2004"), (1004, "matrices.*1004"), (1005, "matrices.*1005"),
+                    (1006, "vectors.*1006"), (1007, "vectors.*1007"), (1008, "points.*1008"), (1009, "triangles.*1009"),
+                    (1010, "quaternions.*1010"), (2006, "vectors.*2006"), (2009, "coefficients.*2009"), (2016, "coefficients.*2016")):
+    for dim in ((4, 5, 4, 3, 3), (5, 5, 4, 3, 1, 3)):
+        refuse("intent %d, %dD" % (code, dim[0]), words, array=FOUR, dim=dim, intent_code=code)
+        ROWS.append(row("NIfTI-2", "intent %d, %dD" % (code, dim[0]), nifti2(FOUR, dim=dim, intent_code=code, **OBLIQUE),
+                        refused(words)))
+refuse("intent RGB, big endian, gz", "colours.*2003", array=FOUR, order=">", file="i.nii.gz", intent_code=2003)
+refuse("intent RGB, .hdr", "colours.*2003", array=FOUR, file="i.hdr", intent_code=2003)
+for code in (1001, 1002, 1011, 2001, 2005):
+    equal("intent %d, 4D" % code, FOUR, intent_code=code, **OBLIQUE)
+for code in (2003, 1007):  # of one component
+    equal("intent %d, 3D" % code, I2, intent_code=code, **OBLIQUE)
+# Classes along the fourth axis: which of them a voxel has.
+CLASS = np.arange(60).reshape(3, 4, 5) % 3
+ONE_HOT = (CLASS == np.arange(3).reshape(3, 1, 1, 1))
+WARNS_OF_CLASSES = "frames are taken for times.*classes"
+for name, array in (("one-hot", ONE_HOT.astype("u1")), ("one-hot of 255", (255 * ONE_HOT).astype("u1")),
+                    ("one-hot, real", ONE_HOT.astype("f4")), ("labels apart", (ONE_HOT * np.arange(3).reshape(3, 1, 1, 1)).astype("i2")),
+                    ("without background", (ONE_HOT & (np.arange(5) > 2)).astype("u1")),
+                    ("probabilities", np.stack([0.7 - 0.1 * CLASS, 0.2 + 0.1 * CLASS, 0 * CLASS + 0.1]).astype("f4"))):
+    equal("classes, %s" % name, array, WARNS_OF_CLASSES, **OBLIQUE)
+for name, array in (("voxels in two frames", np.concatenate([ONE_HOT, ONE_HOT[:1]]).astype("u1")),
+                    ("one frame that is not empty", np.stack([CLASS == 0, 0 * CLASS, 0 * CLASS]).astype("u1")),
+                    ("empty", np.zeros((3, 3, 4, 5), "u1"))):
+    equal("no classes, %s" % name, array, **OBLIQUE)
 refuse("6D", "dim", array=voxels("i2", frames=4), dim=(6, 5, 4, 3, 1, 2, 2))
 for count in (0, 8, -1, 20000):
     refuse("dim[0] = %d" % count, "dim|not an image|format", dim=(count, 5, 4, 3, 1, 1, 1, 1))
