@@ -4,6 +4,7 @@
 
 #include "DICOMPixels.h"
 #include "FileError.h"
+#include "Text.h"
 
 #include <algorithm>
 #include <array>
@@ -106,6 +107,11 @@ std::optional<Color> FromPalette(const DICOMDataSet& data, unsigned label)
 
 std::vector<DICOMSegment> ListSegments(const DICOMDataSet& data)
 {
+  const std::string type = data.Text(SegmentationType);
+  const bool isRight = IsLabelMap(data) ? type.empty() || type == "LABELMAP"
+                                        : type == "BINARY" || type == "FRACTIONAL";
+  RefuseIf(!isRight, "its ", SegmentationType, " is '", Excerpt(type), "', and must be ",
+    (IsLabelMap(data) ? "LABELMAP" : "BINARY or FRACTIONAL"), ": correct its header");
   const bool isLatin1 = data.Text(CharacterSet).ends_with("IR 100");
   std::set<unsigned> numbers;
   std::vector<DICOMSegment> segments;
@@ -126,10 +132,17 @@ std::vector<DICOMSegment> ListSegments(const DICOMDataSet& data)
   return segments;
 }
 
-double FindThreshold(const DICOMDataSet& data, double probability)
+double FindThreshold(const DICOMDataSet& data, unsigned bits, double probability)
 {
-  const unsigned most = data.Short(MaximumFraction).value_or(255);
-  return data.Text(SegmentationType) == "FRACTIONAL" ? probability * most : 0.0;
+  if (data.Text(SegmentationType) != "FRACTIONAL")
+  {
+    return 0.0;
+  }
+  const unsigned most = data.Short(MaximumFraction).value_or(0);
+  RefuseIf(most < 1 || most >= 1U << bits, "its ", MaximumFraction, " is ",
+    (most < 1 ? "missing or 0" : std::to_string(most)), ", and its voxels have ", bits,
+    " bits: correct its header");
+  return probability * most;
 }
 
 std::uint16_t FindBackground(const DICOMDataSet& data)

@@ -28,12 +28,16 @@ struct DICOMSegment
  * Names in Latin-1 become UTF-8; those of other character sets are as the file has them. Colours are those to display,
  * CIELab with the white of D65, as PixelMed, DCMTK and highdicom write it, or those of a palette.
  *
- * @throws FileError: a number twice or, unless it is a label map, 0
+ * @throws FileError: a Segmentation Type that is not of its class, a number twice or, unless it is a label map, 0
  */
 std::vector<DICOMSegment> ListSegments(const DICOMDataSet& data);
 
-/** Above which value of a voxel its segment has it. */
-double FindThreshold(const DICOMDataSet& data, double probability);
+/**
+ * Above which value of a voxel, of so many bits, its segment has it.
+ *
+ * @throws FileError for fractions whose greatest is not given, or needs more bits
+ */
+double FindThreshold(const DICOMDataSet& data, unsigned bits, double probability);
 
 /** The value of a label map that is background, beside 0. @throws FileError if 0 is a segment then */
 std::uint16_t FindBackground(const DICOMDataSet& data);

@@ -346,7 +346,7 @@ ScalarImage ReadSegments(Volume& volume, Reading& reading)
   }
   const DICOMDataSet data(volume.Files.front());
   const DICOMPixels pixels(data);
-  const double threshold = FindThreshold(data, reading.MaskThreshold);
+  const double threshold = FindThreshold(data, volume.Format.BitsStored, reading.MaskThreshold);
   std::set<std::pair<unsigned, std::size_t>> known;
   bool areEndsInFile = false;
   std::stable_sort(volume.Slices.begin(), volume.Slices.end(),

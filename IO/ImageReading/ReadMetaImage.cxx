@@ -115,6 +115,8 @@ StoredVoxels FindVoxels(const TextHeader& header, const Reading& reading)
   RefuseIf(headerSize < StoredVoxels::FromTheEnd ||
       (headerSize == StoredVoxels::FromTheEnd && stored.Coding != Encoding::Raw),
     "its header gives the HeaderSize ", headerSize, ", which is none: correct the header");
+  RefuseIf(headerSize > 0 && headerSize < stored.Offset, "its header gives the HeaderSize ",
+    headerSize, ", and is ", stored.Offset, " bytes long itself: correct the header");
   if (headerSize > 0)
   {
     stored.Offset = headerSize; // of the file with the voxels

@@ -143,6 +143,8 @@ void PlaceMRC(const Fields& fields, ScalarImage& image, Reading& reading)
   Vector3 origin{};
   Vector3 spacing{};
   std::array<std::size_t, 3> axes{};
+  std::array<std::int32_t, 3> sizes{};
+  std::array<std::int32_t, 3> intervals{};
   bool hasOrigin = false;
   for (std::size_t i = 0; i < 3; ++i)
   {
@@ -151,10 +153,11 @@ void PlaceMRC(const Fields& fields, ScalarImage& image, Reading& reading)
     axes[i] = axis == 0 ? i : static_cast<std::size_t>(axis - 1);
     origin[i] = fields.Get<float>(196 + 4 * i);
     hasOrigin = hasOrigin || origin[i] != 0;
-    const std::int32_t intervals = fields.Get<std::int32_t>(28 + 4 * i);
-    RefuseIf(intervals <= 0, "its header gives ", intervals,
+    sizes[i] = fields.Get<std::int32_t>(4 * i);
+    intervals[i] = fields.Get<std::int32_t>(28 + 4 * i);
+    RefuseIf(intervals[i] <= 0, "its header gives ", intervals[i],
       " for the sampling of its cell: correct the header");
-    spacing[i] = fields.Get<float>(40 + 4 * i) / static_cast<double>(intervals);
+    spacing[i] = fields.Get<float>(40 + 4 * i) / static_cast<double>(intervals[i]);
     const float angle = fields.Get<float>(52 + 4 * i);
     RefuseIf(angle != 90.0F && angle != 0.0F, "its cell is not rectangular (angles of ", angle,
       "): resample it");
@@ -162,6 +165,10 @@ void PlaceMRC(const Fields& fields, ScalarImage& image, Reading& reading)
   RefuseIf(axes[0] + axes[1] + axes[2] != 3 || std::max({ axes[0], axes[1], axes[2] }) > 2 ||
       axes[0] == axes[1],
     "its header does not say which axes columns, rows and sections run along");
+  const std::array alongFile{ intervals[axes[0]], intervals[axes[1]], intervals[axes[2]] };
+  RefuseIf(intervals == sizes && alongFile != sizes,
+    "its header contradicts itself: the sampling of its cell (MX, MY, MZ) is that of columns, rows "
+    "and sections, which run along other axes (MAPC, MAPR, MAPS): correct one of them");
   if (spacing == Vector3{}) // what mrcfile writes, if it is not told
   {
     spacing = { 1.0, 1.0, 1.0 };

@@ -182,9 +182,11 @@ void ReadPart(
 {
   const InputFile file(path);
   const bool areLast = stored.BytesToSkip == StoredVoxels::FromTheEnd;
+  const auto begin = static_cast<std::uint64_t>(stored.Offset);
+  // What is too short is found below.
   FileSource raw(file,
-    areLast ? file.Size() - std::min<std::uint64_t>(file.Size(), to.size())
-            : static_cast<std::uint64_t>(stored.Offset));
+    areLast ? std::max(begin, file.Size() - std::min<std::uint64_t>(file.Size(), to.size()))
+            : begin);
   for (std::int64_t lines = stored.LinesToSkip; lines > 0;)
   {
     const std::optional<char> c = raw.Get();
@@ -373,6 +375,8 @@ std::string FindDataFile(const std::string& header, const std::string& name, boo
   const fs::file_status status = fs::status(path, failed);
   RefuseIf(!fs::is_regular_file(status), "its data file '", Excerpt(name),
     (fs::exists(status) ? "' is not a regular file" : "' does not exist"));
+  RefuseIf(fs::equivalent(path, header, failed),
+    "its header names itself as its data file: give the name of the file with the voxels");
   return path.string();
 }
 

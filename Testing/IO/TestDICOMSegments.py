@@ -256,6 +256,13 @@ def beside(data):
 
 # name, options, words of the message
 REFUSED = (
+    *((f"type {kind} of {bits} bits", {"most": most, "SegmentationType": kind},
+       fr"its Segmentation Type \(0062,0001\) is '{kind or ''}'") for kind in ("X", None, "LABELMAP", "binary")
+      for bits, most in ((1, None), (8, 9))),
+    ("no greatest fraction", {"most": 9, "MaximumFractionalValue": None}, r"Maximum Fractional Value \(0062,000e\)"),
+    ("a greatest fraction of 0", {"most": 9, "MaximumFractionalValue": 0}, r"Maximum Fractional Value \(0062,000e\)"),
+    ("a greatest fraction that bytes do not have", {"most": 9, "MaximumFractionalValue": 256}, "Maximum Fractional Value"),
+    ("fractions of one bit", {"SegmentationType": "FRACTIONAL", "MaximumFractionalValue": 255}, "Maximum Fractional Value"),
     ("tiles", {"DimensionOrganizationType": "TILED_FULL"}, "its frames are tiles of a picture"),
     ("tiles in a table", {"TotalPixelMatrixColumns": 512}, "its frames are tiles of a picture"),
     ("no places", {"PerFrameFunctionalGroupsSequence": None}, "frames have no places in space"),
@@ -318,6 +325,12 @@ class TestSegments(SegmentsTestCase):
         for name, options, words in REFUSED:
             with self.subTest(name):
                 self.refused("^cannot read '.*': (.|\n)*(" + words + ")", write(self.folder_of(name), **options))
+
+    def test_types_of_maps(self):
+        for kind in ("X", "BINARY", "FRACTIONAL"):
+            with self.subTest(kind):
+                self.refused(fr"its Segmentation Type \(0062,0001\) is '{kind}'",
+                             write_map(self.folder_of(kind), LABELS, SegmentationType=kind))
 
     def test_object_at_the_ends(self):
         """It is not at the border of the image, and has a shell there, the same as if no slice is left out."""

@@ -130,6 +130,18 @@ refuse("HeaderSize beyond the end", ".", HeaderSize=100000, file="i.mhd", data="
 refuse("HeaderSize -1, too few bytes", ".", HeaderSize=-1, file="i.mhd", data="i.raw", is_broken=True,
        wrap=lambda f: f.with_data(raw(I2)[1:], "i.raw"))
 
+for form in FORMS:
+    for size in (1, 40):
+        refuse("HeaderSize %d of LOCAL, %s" % (size, form), "HeaderSize %d.*header" % size, HeaderSize=size, form=form)
+equal("HeaderSize 1000 of LOCAL", HeaderSize=1000,
+      wrap=lambda f: f.with_data(f.data()[:f.header].ljust(1000, b"x") + f.data()[f.header:]))
+refuse("HeaderSize -1 of LOCAL, a byte missing", ".", HeaderSize=-1, is_broken=True, wrap=lambda f: f.with_data(f.data()[:-1]))
+for size in (None, 0, 9, -1):
+    for names in ("i.mhd", "LIST\ni.mhd", "i.mhd %d", "LIST\ns.raw\ns.raw\n./i.mhd"):
+        refuse("its header as data file, %s, HeaderSize %s" % (names, size), "names itself|pattern|data file", HeaderSize=size,
+               file="i.mhd", data="s.raw", wrap=lambda f, names=names: f.replaced(b"= s.raw", b"= %s" % names.encode()))
+
+
 # Several files of voxels
 def pieces(array, data_file, names, form="raw", order="<", file="i.mhd", **fields):
     files = metaimage(array, file, order, form, data="i.raw", **fields)

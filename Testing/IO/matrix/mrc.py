@@ -93,6 +93,10 @@ refuse("angles of 120", "angle", angles=(90, 90, 120))
 equal("map of zeros", map=(0, 0, 0), also=[refused("axes|map"), Image(I2, WHERE, warns=ANY)])
 for axes in ((1, 1, 3), (1, 2, 4), (3, 2, 2), (-1, 2, 3)):
     refuse("map of %s" % (axes,), "axes|map", map=axes)
+for axes in PERMUTATIONS[1:]:  # the sampling follows the axes of space, not those of the file
+    refuse("sampling of columns, rows, sections, map of %s" % (axes,), "axes.*sampling|sampling.*axes", map=axes)
+equal("a part of the cell, map of (3, 2, 1)", Image(I2, turned((3, 2, 1)), warns=WARNS), map=(3, 2, 1), m=(6, 8, 10),
+      cell=SPACING * (6, 8, 10))
 for value in (0, -1, np.nan, np.inf):  # along one axis
     refuse("cell of %s" % value, "cell|spacing|position", cell=(1, value, 1))
 for value in (np.nan, np.inf):

@@ -353,6 +353,7 @@ ROWS.append(row("NIfTI", "a pair without its .img", Files("i.hdr", {"i.hdr": nif
                 broken(r"i\.img")))
 for what, part in (("a FIFO", Fifo()), ("a folder", Folder()), ("a link to itself", Link("i.img"))):
     refuse("%s as .img" % what, r"i\.img", file="i.hdr", wrap=lambda f, part=part: f.with_data(part, "i.img"))
+refuse("its header as .img, by a link", "names itself", file="i.hdr", wrap=lambda f: f.with_data(Link("i.hdr"), "i.img"))
 refuse("an .img elsewhere, by a link", r"i\.img", file="in/i.hdr", wrap=lambda f: f.with_data(
     Link("../out.img"), "in/i.img").beside({"out.img": raw(I2)}))
 equal("an .img in the folder, by a link", I2, file="i.hdr", **OBLIQUE, wrap=lambda f: f.with_data(

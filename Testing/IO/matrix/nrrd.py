@@ -366,6 +366,10 @@ refuse("byte skip -1, gzip", "byte ?skip|gzip", encoding="gzip", byte_skip=-1,
        wrap=lambda f: f.with_data(f.data()[:-20]), is_broken=True)
 refuse("byte skip -1, too few bytes", ".", byte_skip=-1, file="i.nhdr", data="i.dat", is_broken=True,
        wrap=lambda f: f.with_data(raw(I2)[1:], "i.dat"))
+refuse("byte skip -1, attached, a byte missing", ".", byte_skip=-1, is_broken=True, wrap=lambda f: f.with_data(f.data()[:-1]))
+for skip in (0, -1):
+    refuse("its header as data file, byte skip %d" % skip, "names itself", byte_skip=skip, file="i.nhdr", data="i.dat",
+           wrap=lambda f: f.replaced(b"i.dat", b"i.nhdr"))
 for skip in ("-2", "x", "1.5"):
     refuse("byte skip %s" % skip, "byte ?skip", byte_skip=skip, before=b"123")
 refuse("line skip -1", "line ?skip", line_skip=-1)
