@@ -155,17 +155,6 @@ ScalarImage ReadFileOrFolder(const ImageRequest& request, Reading& reading)
 
 } // namespace
 
-void WarnOfLengths(const std::string& unit, Reading& reading)
-{
-  constexpr std::array<std::string_view, 6> plain{ "", "mm", "millimeter", "millimetre",
-    "millimeters", "millimetres" };
-  if (std::find(plain.begin(), plain.end(), unit) == plain.end())
-  {
-    reading.Warnings.push_back(
-      "its lengths are in '" + Excerpt(unit) + "', and so are those of the mesh");
-  }
-}
-
 void WarnOfSpacing(Reading& reading)
 {
   reading.Warnings.push_back(

@@ -6,6 +6,7 @@
 #include "StoredVoxels.h"
 #include "Text.h"
 #include "TextHeader.h"
+#include "Units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -177,7 +178,7 @@ ScalarImage ReadMetaImage(const std::string& path, Reading& reading)
     AdoptTimes(geometry, count, image);
   }
   const std::string unit = header.Word({ "distanceunits" }, "?");
-  WarnOfLengths(unit == "?" ? "" : unit, reading);
+  WarnOfLengths(unit == "?" ? "" : unit, reading.Warnings);
   ReadVoxels(FindVoxels(header, reading), image, reading);
   return image;
 }

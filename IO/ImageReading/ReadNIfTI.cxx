@@ -6,6 +6,7 @@
 #include "Placement.h"
 #include "StoredVoxels.h"
 #include "TextHeader.h"
+#include "Units.h"
 
 #include <vtkMath.h>
 
@@ -396,22 +397,29 @@ Affine FindAffine(const Header& header, double unit, const ScalarImage& image, R
 }
 
 /** Into millimetres, from metres and micrometres. */
-double UnitOfLength(const Header& header)
+double UnitOfLength(const Header& header, Reading& reading)
 {
   const std::int64_t code = header.Units & 7;
+  WarnOfLengths(code > 3 ? "unit " + std::to_string(code) : "", reading.Warnings);
   return code == 1 ? 1e3 : code == 3 ? 1e-3 : 1.0;
 }
 
 /** Into seconds, from milliseconds and microseconds. */
-double UnitOfTime(const Header& header)
+double UnitOfTime(const Header& header, Reading& reading)
 {
   const std::int64_t code = header.Units & 56;
+  static const std::map<std::int64_t, const char*> others{ { 32, "Hz" }, { 40, "ppm" },
+    { 48, "rad/s" }, { 56, "unit 56" } };
+  if (const auto other = others.find(code); other != others.end())
+  {
+    WarnOfTimes(other->second, reading.Warnings);
+  }
   return code == 16 ? 1e-3 : code == 24 ? 1e-6 : 1.0;
 }
 
 void PlaceImage(const Header& header, ScalarImage& image, Reading& reading)
 {
-  const double unit = UnitOfLength(header);
+  const double unit = UnitOfLength(header, reading);
   Affine affine = FindAffine(header, unit, image, reading);
   // From RAS to LPS, but what ANALYZE does not say.
   const Vector3 signs = header.IsAnalyze ? Vector3{ 1.0, 1.0, 1.0 } : Vector3{ -1.0, -1.0, 1.0 };
@@ -428,7 +436,7 @@ void PlaceImage(const Header& header, ScalarImage& image, Reading& reading)
 
 void AdoptTimes(const Header& header, ScalarImage& image, Reading& reading)
 {
-  const double unit = UnitOfTime(header);
+  const double unit = UnitOfTime(header, reading);
   const double step = header.Steps[4] * unit;
   RefuseIf(!std::isfinite(header.FirstTime),
     "the time of the first frame in its header (toffset) is not a finite number: correct the "

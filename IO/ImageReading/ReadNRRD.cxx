@@ -7,6 +7,7 @@
 #include "StoredVoxels.h"
 #include "Text.h"
 #include "TextHeader.h"
+#include "Units.h"
 
 #include <algorithm>
 #include <array>
@@ -277,6 +278,52 @@ Roles AssignRoles(const TextHeader& header, const std::vector<Axis>& axes, const
   return roles;
 }
 
+// --- Units -------------------------------------------------------------------------------------------
+
+/** "mm" "mm" "mm" "s": the texts within quotes. */
+std::vector<std::string> UnitsIn(const TextHeader& header, const char* field)
+{
+  const std::string* const text = header.Find(field);
+  const std::vector<std::string> parts = Split(text ? *text : "", '"');
+  std::vector<std::string> units;
+  for (std::size_t i = 1; i < parts.size(); i += 2)
+  {
+    units.push_back(parts[i] == "???" ? "" : parts[i]);
+  }
+  return units;
+}
+
+std::string UnitAt(const std::vector<std::string>& units, std::size_t axis)
+{
+  return axis < units.size() ? units[axis] : "";
+}
+
+/** Along the axes of space, if it gives units of them, else along those of the file. */
+Vector3 FactorsOfUnits(const TextHeader& header, const Roles& roles, Reading& reading)
+{
+  const std::vector<std::string> ofSpace = UnitsIn(header, "space units");
+  const std::vector<std::string> ofAxes = UnitsIn(header, "units");
+  std::array<std::string, 3> units;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    units[i] = ofSpace.empty() ? UnitAt(ofAxes, roles.Space[i]) : UnitAt(ofSpace, i);
+  }
+  WarnOfLengths(units[0], reading.Warnings);
+  return ToUnitOfFirst(units, reading.Warnings);
+}
+
+/** 3D Slicer's sequences have "axis 0 index unit:=ms". */
+std::string UnitOfTime(const TextHeader& header, const Axis& axis, std::size_t number)
+{
+  if (const std::string* unit = header.FindPair("axis " + std::to_string(number) + " index unit"))
+  {
+    return *unit;
+  }
+  const std::string own = UnitAt(UnitsIn(header, "units"), number);
+  const bool isInSpace = axis.Direction.size() == 4;
+  return own.empty() && isInSpace ? UnitAt(UnitsIn(header, "space units"), 3) : own;
+}
+
 // --- Placement ---------------------------------------------------------------------------------------
 
 /** By space directions, or else by spacings along the axes of the space, which may be that of a header without one. */
@@ -285,7 +332,9 @@ void PlaceImage(const TextHeader& header, const std::vector<Axis>& axes, const R
 {
   const bool hasDirections = header.Find("space directions") != nullptr;
   const bool hasSpacings = header.FindAny({ "spacings", "axis maxs", "axismaxs" }) != nullptr;
+  const bool hasSpaceUnits = header.Find("space units") != nullptr;
   const std::vector<double> given = header.Numbers({ "space origin" }, space.Dimension);
+  const Vector3 factors = FactorsOfUnits(header, roles, reading);
   Vector3 origin{};
   std::array<Vector3, 3> steps{};
   for (std::size_t i = 0; i < 3; ++i)
@@ -293,12 +342,13 @@ void PlaceImage(const TextHeader& header, const std::vector<Axis>& axes, const R
     const Axis& axis = axes[roles.Space[i]];
     const double first = !given.empty() ? given[i] : hasDirections ? NaN : axis.First;
     const bool isMissing = std::isnan(first) && (given.empty() || !hasDirections);
-    origin[i] = isMissing ? 0.0 : space.Signs[i] * first;
+    const double factor = hasSpaceUnits || !hasDirections ? factors[i] : 1.0;
+    origin[i] = isMissing ? 0.0 : space.Signs[i] * first * factor;
     if (!hasDirections)
     {
       CheckSpacing(!hasSpacings || (axis.Spacing > 0 && std::isfinite(axis.Spacing)),
         header.Shown({ "spacings", "axis maxs", "axismaxs" }));
-      steps[i][i] = space.Signs[i] * (hasSpacings ? axis.Spacing : 1.0);
+      steps[i][i] = space.Signs[i] * (hasSpacings ? axis.Spacing * factor : 1.0);
       continue;
     }
     const std::vector<double>& direction = axis.Direction;
@@ -308,7 +358,7 @@ void PlaceImage(const TextHeader& header, const std::vector<Axis>& axes, const R
     CheckTimeIsApart(direction.size() != 4 || std::abs(direction[3]) < DirectionTolerance);
     for (std::size_t row = 0; row < 3; ++row)
     {
-      steps[i][row] = space.Signs[row] * direction[row];
+      steps[i][row] = space.Signs[row] * direction[row] * factors[hasSpaceUnits ? row : i];
     }
   }
   Place(image, steps, origin);
@@ -354,6 +404,7 @@ bool AdoptIndexValues(
 void AdoptTimes(const TextHeader& header, const Axis& axis, std::size_t number, ScalarImage& image,
   Reading& reading)
 {
+  WarnOfTimes(UnitOfTime(header, axis, number), reading.Warnings);
   if (AdoptIndexValues(header, number, image, reading))
   {
     return;
@@ -397,29 +448,6 @@ StoredVoxels FindVoxels(const TextHeader& header, std::size_t size, const Readin
   return stored;
 }
 
-/** Numbers as they are in the file, so that the user must know. */
-void WarnOfUnit(const TextHeader& header, const Roles& roles, Reading& reading)
-{
-  const bool isOfSpace = header.Find("space units") != nullptr;
-  const std::string* units = header.FindAny({ "space units", "units" });
-  if (!units)
-  {
-    return;
-  }
-  const std::vector<std::string> texts =
-    Split(*units, '"'); // of which each second is within quotes
-  std::string unit;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const std::size_t at = 2 * (isOfSpace ? i : roles.Space[i]) + 1;
-    const std::string own = at < texts.size() ? texts[at] : "";
-    RefuseIf(i > 0 && own != unit, "its axes have the units '", Excerpt(unit), "' and '",
-      Excerpt(own), "': write it with one unit");
-    unit = own;
-  }
-  WarnOfLengths(unit, reading);
-}
-
 } // namespace
 
 bool IsNRRD(const InputFile& file)
@@ -449,7 +477,6 @@ ScalarImage ReadNRRD(const std::string& path, Reading& reading)
   }
   SetSizes(image, sizes);
   PlaceImage(header, axes, roles, space, image, reading);
-  WarnOfUnit(header, roles, reading);
   if (roles.Frames && !roles.HasLayers)
   {
     AdoptTimes(header, axes[*roles.Frames], *roles.Frames, image, reading);

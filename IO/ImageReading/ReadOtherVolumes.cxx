@@ -5,6 +5,7 @@
 #include "Fields.h"
 #include "Placement.h"
 #include "StoredVoxels.h"
+#include "Units.h"
 
 #include <algorithm>
 #include <array>
@@ -303,7 +304,7 @@ ScalarImage ReadMRC(const std::string& path, Reading& reading)
   constexpr std::int32_t firstOfStacks = 401;
   RefuseIf(fields.Get<std::int32_t>(88) >= firstOfStacks,
     "it is a stack of volumes: extract one of them first");
-  WarnOfLengths("angstrom", reading);
+  WarnOfLengths("angstrom", reading.Warnings);
   stored.Files = { path };
   stored.BytesToSkip = static_cast<std::int64_t>(SizeOfMRC) + extension;
   ReadVoxels(stored, image, reading);

@@ -50,13 +50,6 @@ struct Reading
   LabelTable Labels;
 };
 
-/**
- * Lengths are numbers as the file has them, whatever their unit. If that is not the millimetre, the user must know.
- *
- * @param unit as the file writes it; empty if it does not say
- */
-void WarnOfLengths(const std::string& unit, Reading& reading);
-
 /** Where a header gives no spacing. */
 void WarnOfSpacing(Reading& reading);
 
@@ -82,7 +75,7 @@ ScalarImage ReadNRRD(const std::string& path, Reading& reading);
  * The image lies where the sform says, if its code is positive, else where the qform says, if its code is; nibabel and
  * FSL do so, too. If both are there and differ, a warning tells by how much. If neither is, it lies along the axes of
  * RAS from 0, with a warning. Lengths in metres or micrometres are turned into millimetres, and times in milliseconds
- * or microseconds into seconds; numbers with other units, or none, are those of the file. Voxels are scaled as
+ * or microseconds into seconds; numbers with no unit are those of the file, and so, with a warning, with another. Voxels are scaled as
  * scl_slope and scl_inter say. ANALYZE does not say how an image lies: along the axes of LPS, with a warning.
  */
 bool IsNIfTI(const InputFile& file);

@@ -5,6 +5,7 @@
 #include "FileError.h"
 #include "OMEMetadata.h"
 #include "Text.h"
+#include "Units.h"
 
 #include <algorithm>
 #include <array>
@@ -75,71 +76,6 @@ TextFields ParseLines(const std::string& description)
 
 // --- The size of voxels
 
-struct Unit
-{
-  std::string_view Name; ///< in the plural
-  double Metres;
-  std::string_view Spellings; ///< between blanks
-};
-
-constexpr std::array<Unit, 7> Units{
-  Unit{ "angstroms", 1e-10, " \u00C5 \u212B A angstrom angstroms " },
-  Unit{ "nanometres", 1e-9, " nm nanometer nanometers nanometre nanometres " },
-  // ImageJ escapes the micro sign, and older programs have it in Latin-1.
-  Unit{ "micrometres", 1e-6,
-    " um \u00B5m \u03BCm \\u00B5m \\u00b5m \xB5m micron microns micrometer micrometers micrometre "
-    "micrometres " },
-  Unit{ "millimetres", 1e-3, " mm millimeter millimeters millimetre millimetres " },
-  Unit{ "centimetres", 1e-2, " cm centimeter centimeters centimetre centimetres " },
-  Unit{ "metres", 1.0, " m meter meters metre metres " },
-  Unit{ "inches", 0.0254, " in inch inches " },
-};
-
-/** Null if it is no unit that is known here. */
-const Unit* FindUnit(const std::string& text)
-{
-  const auto unit = std::find_if(Units.begin(), Units.end(),
-    [&](const Unit& each)
-    {
-      const std::vector<std::string_view> spellings = Words(each.Spellings);
-      return std::find(spellings.begin(), spellings.end(), text) != spellings.end();
-    });
-  return unit == Units.end() ? nullptr : &*unit;
-}
-
-/** A count of voxels measures nothing. */
-bool IsUnitOfLength(const std::string& unit)
-{
-  return !unit.empty() && unit != "pixel" && unit != "pixels" && unit != "null";
-}
-
-double UnitRatio(const std::string& unit, const std::string& other)
-{
-  if (unit == other)
-  {
-    return 1.0;
-  }
-  const Unit* above = FindUnit(unit);
-  const Unit* below = FindUnit(other);
-  RefuseIf(!above || !below, "its description gives lengths in different units, '", Excerpt(unit),
-    "' and '", Excerpt(other), "': write it with one unit for all axes");
-  return above == below ? 1.0 : above->Metres / below->Metres;
-}
-
-void WarnOfUnit(const std::string& unit, Warnings& warnings)
-{
-  const Unit* known = FindUnit(unit);
-  if (!IsUnitOfLength(unit))
-  {
-    warnings.push_back("its lengths have no unit, and the mesh has the same numbers");
-  }
-  else if (!known || known->Name != "millimetres")
-  {
-    warnings.push_back("its lengths are in " +
-      (known ? std::string(known->Name) : "'" + Excerpt(unit) + "'") + ", and so is the mesh");
-  }
-}
-
 /** What a description says of the lengths along each axis; empty where it says nothing. */
 struct VoxelSize
 {
@@ -163,23 +99,33 @@ void SetSpacing(TIFFStack& stack, const VoxelSize& size, Warnings& warnings)
       "print), and they are taken to be 1 x 1 x 1: give their size with SetSpacing()");
     return;
   }
-  const std::string& unit = size.Unit[static_cast<std::size_t>(first - size.Length.begin())];
+  std::array<std::string, 3> units = size.Unit;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (size.Length[axis])
+    if (!size.Length[axis])
     {
-      stack.Spacing[axis] = *size.Length[axis] * UnitRatio(size.Unit[axis], unit);
-    }
-    else
-    {
+      units[axis] = size.Unit[static_cast<std::size_t>(first - size.Length.begin())];
       warnings.push_back(std::string("it does not say how large its voxels are along ") +
         "xyz"[axis] + ", which is taken to be 1: give their size with SetSpacing()");
     }
   }
-  WarnOfUnit(unit, warnings);
+  const Vector3 factors = ToUnitOfFirst(units, warnings);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    stack.Spacing[axis] = size.Length[axis].value_or(1.0) * factors[axis];
+  }
+  if (IsUnitOfLength(units[0]))
+  {
+    WarnOfLengths(units[0], warnings);
+  }
+  else
+  {
+    warnings.push_back("its lengths have no unit, and the mesh has the same numbers");
+  }
 }
 
-void SetTimeStep(TIFFStack& stack, std::optional<double> step, Warnings& warnings)
+void SetTimeStep(
+  TIFFStack& stack, std::optional<double> step, const std::string& unit, Warnings& warnings)
 {
   if (stack.Frames == 1)
   {
@@ -195,6 +141,7 @@ void SetTimeStep(TIFFStack& stack, std::optional<double> step, Warnings& warning
   RefuseIf(!(*step > 0 && *step < largest), "its description has ", *step,
     " for the time from frame to frame, which must be a positive number: correct it");
   stack.TimeStep = *step;
+  WarnOfTimes(unit, warnings);
 }
 
 // --- The order of pages
@@ -359,7 +306,7 @@ TIFFStack DescribeImageJ(const TIFFPages& pages, Warnings& warnings)
     const auto origin = FindNumber<double>(fields, std::string(1, "xyz"[axis]) + "origin");
     stack.Origin[axis] = origin ? -*origin * stack.Spacing[axis] : 0.0; // it is counted in voxels
   }
-  SetTimeStep(stack, FindNumber<double>(fields, "finterval"), warnings);
+  SetTimeStep(stack, FindNumber<double>(fields, "finterval"), FindText(fields, "tunit"), warnings);
   ReadGreyCalibration(stack, pages, fields, warnings);
   return stack;
 }
@@ -388,16 +335,22 @@ TIFFStack DescribeSCIFIO(const TIFFPages& pages, Warnings& warnings)
   std::vector<PageAxis> axes;
   VoxelSize size;
   std::optional<double> timeStep;
+  std::string timeUnit;
   for (std::size_t a = 0; a < names.size(); ++a)
   {
+    const std::string unit = a < units.size() ? units[a] : std::string();
     if (a < 2 || names[a] == "Z")
     {
       size.Length[std::min<std::size_t>(a, 2)] = NumberAt(scales, a);
-      size.Unit[std::min<std::size_t>(a, 2)] = a < units.size() ? units[a] : std::string();
+      size.Unit[std::min<std::size_t>(a, 2)] = unit;
+    }
+    if (names[a] == "Time")
+    {
+      timeStep = NumberAt(scales, a);
+      timeUnit = unit;
     }
     if (a >= 2)
     {
-      timeStep = names[a] == "Time" ? NumberAt(scales, a) : timeStep;
       axes.push_back(NameAxis(
         names[a], CheckCount("lengths", ParseNumber<std::int64_t>("lengths", lengths[a]))));
     }
@@ -405,7 +358,7 @@ TIFFStack DescribeSCIFIO(const TIFFPages& pages, Warnings& warnings)
   TIFFStack stack;
   NumberPages(stack, axes, pages.Count());
   SetSpacing(stack, size, warnings);
-  SetTimeStep(stack, timeStep, warnings);
+  SetTimeStep(stack, timeStep, timeUnit, warnings);
   return stack;
 }
 
@@ -462,7 +415,7 @@ TIFFStack DescribeTifffile(const TIFFPages& pages, Warnings& warnings)
   }
   NumberPages(stack, axes, count);
   SetSpacing(stack, {}, warnings);
-  SetTimeStep(stack, {}, warnings);
+  SetTimeStep(stack, {}, "", warnings);
   return stack;
 }
 
@@ -578,7 +531,8 @@ TIFFStack DescribeOME(const TIFFPages& pages, Warnings& warnings)
     }
   }
   SetSpacing(stack, FindVoxelSizeOfOME(metadata.Pixels), warnings);
-  SetTimeStep(stack, FindNumber<double>(metadata.Pixels, "TimeIncrement"), warnings);
+  SetTimeStep(stack, FindNumber<double>(metadata.Pixels, "TimeIncrement"),
+    FindText(metadata.Pixels, "TimeIncrementUnit"), warnings);
   return stack;
 }
 

@@ -95,7 +95,7 @@ class Definitions(unittest.TestCase):
                 if row.format != "MGH":
                     if theirs.header["sform_code"] <= 0 and theirs.header["qform_code"] <= 0:
                         continue
-                    unit = {"meter": 1e3, "micron": 1e-3}.get(theirs.header.get_xyzt_units()[0], 1.0)
+                    unit = {1: 1e3, 3: 1e-3}.get(int(theirs.header["xyzt_units"]) & 7, 1.0)  # metres, microns
                 np.testing.assert_allclose(np.diag([-unit, -unit, unit]) @ theirs.affine[:3], image.affine, rtol=1e-5,
                                            atol=1e-5)
                 voxels = np.asarray(theirs.dataobj).reshape(image.voxels.T.shape).T

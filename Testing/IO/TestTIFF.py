@@ -22,6 +22,7 @@ except ImportError:
 
 DTYPES = "u1", "i1", "u2", "i2", "u4", "i4", "u8", "i8", "f4", "f8"
 UNKNOWN = r"how large its voxels are \(.*1 x 1 x 1: .*SetSpacing\(\)"
+TIMES = "its times are in '%s', and so are those of the mesh"
 MICRONS = "its lengths are in micrometres, and so is the mesh"
 NO_TIME = r"time from frame to frame, which is taken to be 1; use SetTimeScale\(\)"
 
@@ -329,6 +330,10 @@ class Descriptions(TIFFTestCase):
                 ("no unit", lines("spacing=1.5"), half, self.ARRAY, ("lengths have no unit",), dict(spacing=box)),
                 ("unit of an axis", lines("unit=micron", "zunit=nm", "spacing=1500"), half, self.ARRAY, (MICRONS,),
                  dict(spacing=box)),
+                ("units that cannot be compared", lines("unit=micron", "zunit=parsec", "spacing=1.5"), half, self.ARRAY,
+                 (r"units 'micron' and 'parsec', .*SetSpacing\(\)", MICRONS), dict(spacing=box)),
+                ("an axis in pixels", lines("unit=micron", "zunit=pixel", "spacing=1.5"), half, self.ARRAY,
+                 (r"units 'micron' and 'pixel', .*SetSpacing\(\)", MICRONS), dict(spacing=box)),
                 ("inches", lines("unit=inch", "spacing=1.5"), resolution(2, 4, 2), self.ARRAY, ("in inches",),
                  dict(spacing=box)),
                 ("no distance", lines("unit=mm"), half, self.ARRAY,
@@ -344,6 +349,12 @@ class Descriptions(TIFFTestCase):
                 ("frames", lines("slices=3", "frames=2", "unit=mm", "spacing=1.5", "finterval=0.1"), half, self.MOVING,
                  (),
                  dict(spacing=box, time_step=0.1)),
+                ("milliseconds", lines("slices=3", "frames=2", "unit=mm", "spacing=1.5", "finterval=0.1", "tunit=ms"), half,
+                 self.MOVING, (TIMES % "ms",), dict(spacing=box, time_step=0.1)),
+                ("seconds", lines("slices=3", "frames=2", "unit=mm", "spacing=1.5", "finterval=0.1", "tunit=sec"), half,
+                 self.MOVING, (), dict(spacing=box, time_step=0.1)),
+                ("milliseconds of one frame", lines("slices=6", "unit=mm", "spacing=1.5", "finterval=0.1", "tunit=ms"), half,
+                 self.ARRAY, (), dict(spacing=box)),
                 ("frames without a time", lines("slices=3", "frames=2", "unit=mm", "spacing=1.5"), half, self.MOVING,
                  (NO_TIME,), dict(spacing=box)),
                 ("an offset of grey",
@@ -364,8 +375,6 @@ class Descriptions(TIFFTestCase):
                                 ("its 6 pages are frames in time, of one slice each", ("frames=6",)),
                                 ("has 'six' for slices", ("slices=six",)),
                                 ("has 0 for slices", ("slices=0",)),
-                                ("different units, 'parsec' and 'micron'",
-                                 ("unit=micron", "zunit=parsec", "spacing=2")),
                                 ("y axis runs upwards", ("inverty=true",)),
                                 ("spacing", ("unit=mm", "spacing=nan")),
                                 ("time from frame to frame", ("slices=3", "frames=2", "finterval=-1"))):
@@ -397,10 +406,12 @@ class Descriptions(TIFFTestCase):
         for name, values, wanted, more in (
                 ("slices", ("Z", "6", "1.5", "micron"), self.ARRAY, {}),
                 ("frames", ("Z,Time", "3,2", "1.5,0.1", "micron,sec"), self.MOVING, dict(time_step=0.1)),
-                ("slices of frames", ("Time,Z", "2,3", "0.1,1.5", "sec,micron"), self.ACROSS, dict(time_step=0.1))):
+                ("slices of frames", ("Time,Z", "2,3", "0.1,1.5", "sec,micron"), self.ACROSS, dict(time_step=0.1)),
+                ("hours", ("Z,Time", "3,2", "1.5,0.1", "micron,hour"), self.MOVING, dict(
+                    time_step=0.1, warnings=(MICRONS, TIMES % "hour")))):
             with self.subTest(name):
-                self.check(self.described(description % values), wanted, spacing=(0.5, 0.25, 1.5), warnings=(MICRONS,),
-                           **more)
+                self.check(self.described(description % values), wanted, spacing=(0.5, 0.25, 1.5),
+                           **{"warnings": (MICRONS,), **more})
         for more in ("scales=1.0,1.0,1.0\nunits=null,null,null\n", "units=um,um,um\n"):
             self.check(self.described("SCIFIO=0.37\naxes=X,Y,Z\nlengths=20,12,6\n" + more), self.ARRAY)
         self.refused("it has 2 channels", self.described(description % ("Channel,Z", "2,3", "1,1", "null,um")))
@@ -435,6 +446,13 @@ class Descriptions(TIFFTestCase):
                  (MICRONS,), dict(time_step=0.1)),
                 ("nanometres and micrometres", ("XYZCT", 3, 2, nm, ""), self.MOVING, ("in nanometres",),
                  dict(spacing=(0.5, 0.25, 1500), time_step=0.1)),
+                *((f"times in {unit}", ("XYZCT", 3, 2, f'{step} TimeIncrementUnit="{unit}"', ""), self.MOVING,
+                   (MICRONS,) + (() if unit == "s" else (TIMES % unit,)), dict(time_step=0.1)) for unit in ("s", "ms", "min", "h")),
+                *((f"z in {unit}", ("XYZCT", 6, 1, f'PhysicalSizeZUnit="{unit}"', ""), self.ARRAY,
+                   (() if factor else (fr"units 'um' and '{unit}', .*SetSpacing\(\)",)) + (MICRONS,),
+                   dict(spacing=(0.5, 0.25, 1.5 * (factor or 1)))) for unit, factor in (
+                       ("nm", 1e-3), ("pm", 1e-6), ("\u00C5", 1e-4), ("mm", 1e3), ("dm", 1e5), ("in", 25400.0), ("thou", 25.4),
+                       ("pixel", None), ("reference frame", None), ("ly", None))),
                 ("millimetres", ("XYZCT", 6, 1, nm.replace("nm", "mm").replace("\u00B5m", "mm"), ""), self.ARRAY, (),
                  {})):
             with self.subTest(name):

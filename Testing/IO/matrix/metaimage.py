@@ -98,8 +98,8 @@ equal("no matrix", TransformMatrix=None)
 equal("no offset", Image(I2, affine(origin=(0, 0, 0)), warns=ANY), Offset=None)
 equal("AnatomicalOrientation", AnatomicalOrientation="LPI", CenterOfRotation="9 9 9", Comment="x = y", ID=7, Name="a",
       ObjectSubType="Image", Modality="MET_MOD_CT", ElementMin=-9, ElementMax=9)
-for unit in ("mm", "um", "cm"):
-    equal("DistanceUnits %s" % unit, Image(I2, affine(), warns="" if unit == "mm" else "its lengths are in '%s'" % unit),
+for unit, warns in (("mm", ""), ("um", "in micrometres"), ("cm", "in centimetres"), ("furlong", "in 'furlong'"), ("?", "")):
+    equal("DistanceUnits %s" % unit, Image(I2, affine(), warns=warns and "its lengths are %s, and so is" % warns),
           DistanceUnits=unit)
 equal("a field that is not known", MyField="x")
 equal("a comment with the word of MRC", Image(voxels("i2", shape=LARGER), affine()),

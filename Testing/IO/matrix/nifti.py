@@ -234,13 +234,17 @@ for units in (0, MM, MICRON, METRE):
         equal("length unit %d, %s" % (units, name), I2, warns=ANY if units == 0 else "", xyzt_units=units,
               **form(AXES["oblique"]))
     equal("length unit %d, neither" % units, I2, xyzt_units=units)
-for units in (0, SECONDS, MILLISECONDS, MICROSECONDS, 32, 40):
-    equal("time unit %d" % units, FOUR, warns=ANY if units in (0, 32, 40) else "", xyzt_units=MM + units, **OBLIQUE)
+for units, warns in ((0, ""), (SECONDS, ""), (MILLISECONDS, ""), (MICROSECONDS, ""), (32, "Hz"), (40, "ppm"), (48, "rad/s"),
+                     (56, "unit 56")):
+    warns = warns and "its times are in '%s', and so are those of the mesh" % warns
+    equal("time unit %d" % units, FOUR, warns=warns, xyzt_units=MM + units, **OBLIQUE)
+    equal("time unit %d, 3D" % units, I2, xyzt_units=MM + units, **OBLIQUE)
 for units in (SECONDS, MILLISECONDS, MICROSECONDS):
     ROWS.append(row("NIfTI-2", "time unit %d" % units, nifti2(FOUR, xyzt_units=MM + units, **OBLIQUE),
                     held(FOUR, {**OBLIQUE, "xyzt_units": MM + units})))
 equal("micron and milliseconds", FOUR, xyzt_units=MICRON + MILLISECONDS, **OBLIQUE)
-equal("length unit 7", I2, warns=ANY, outcome=refused("unit"), xyzt_units=7, **OBLIQUE)
+for units in (4, 7):
+    equal("length unit %d" % units, I2, "its lengths are in 'unit %d'" % units, xyzt_units=units, **OBLIQUE)
 
 # Sizes
 equal("4D of one frame", voxels("i2", frames=1), **OBLIQUE)

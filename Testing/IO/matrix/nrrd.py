@@ -29,8 +29,9 @@ SPACES = {
     "scanner-xyz": (1, 1, 1), "3D-right-handed": (1, 1, 1), "3D-left-handed": (1, 1, 1),
 }
 NAMED = [name for name in SPACES if name.endswith(("superior", "S"))]
-UNITS = "mm", "millimeter", "cm", "m", "um", "nm", "micron"
-UNIT = "its lengths are in '%s', and so are those of the mesh"  # numbers are those of the file
+UNITS = {"mm": "", "millimeter": "", "cm": "centimetres", "m": "metres", "um": "micrometres", "nm": "nanometres",
+         "micron": "micrometres", "furlong": "'furlong'"}
+UNIT = "its lengths are in %s, and so is the mesh"  # numbers are those of the file
 
 
 def encode(array, encoding, order):
@@ -228,16 +229,37 @@ equal("spacings, 4D, no step of time", Image(FOUR, affine(origin=(0, 0, 0)), (0,
 
 # Further fields
 for unit in UNITS:
-    equal("space units %s" % unit, Image(I2, affine(), warns="" if unit.startswith("mm") or "milli" in unit else UNIT % unit), space_units='"%s" "%s" "%s"' % (unit, unit, unit))
-equal("units um", Image(I2, affine(origin=(0, 0, 0)), warns=UNIT % "um"), **PLAIN, spacings="0.5 1.25 2",
+    equal("space units %s" % unit, Image(I2, affine(), warns=UNITS[unit] and UNIT % UNITS[unit]), space_units='"%s" "%s" "%s"' % (unit, unit, unit))
+equal("units um", Image(I2, affine(origin=(0, 0, 0)), warns=UNIT % "micrometres"), **PLAIN, spacings="0.5 1.25 2",
       units='"um" "um" "um"')
-equal("space units um, list", Image(FOUR, affine(), times(3), warns=UNIT % "um"), **frame_list(), space_units='"um" "um" "um"')
-equal("space units um and s", Image(FOUR, affine(), times(3), warns=UNIT % "um"), **space_time(), space_units='"um" "um" "um" "s"')
+equal("space units um, list", Image(FOUR, affine(), times(3), warns=UNIT % "micrometres"), **frame_list(), space_units='"um" "um" "um"')
+equal("space units um and s", Image(FOUR, affine(), times(3), warns=UNIT % "micrometres"), **space_time(), space_units='"um" "um" "um" "s"')
 equal("space units voxel", Image(I2, affine(), warns=ANY), [refused("unit|voxel")],
       space_units='"voxel" "voxel" "voxel"')
 equal("space units empty", Image(I2, affine(), warns=ANY), space_units='"" "" ""')
-equal("space units mm and cm", Image(I2, affine(), warns="unit"), [refused("unit")],
-      space_units='"mm" "mm" "cm"')
+# Different ones become that of the first axis: of the space, or of the file.
+THOUSAND = np.array([1.0, 1000.0, 1000.0])
+for axes in AXES:
+    equal("space units um, mm and mm, %s" % axes, Image(I2, np.diag(THOUSAND) @ affine(AXES[axes]), warns=UNIT % "micrometres"),
+          space_units='"um" "mm" "mm"', space_directions=directions(AXES[axes]))
+    equal("units um, mm and mm, %s" % axes, Image(I2, affine(AXES[axes] * THOUSAND), warns=UNIT % "micrometres"),
+          units='"um" "mm" "mm"', space_directions=directions(AXES[axes]))
+equal("space units mm, mm and cm", Image(I2, np.diag((1, 1, 10)) @ affine()), space_units='"mm" "millimeters" "cm"')
+equal("units um, mm and mm, no directions", Image(I2, affine(np.diag(SPACING * THOUSAND), ORIGIN * THOUSAND),
+      warns=UNIT % "micrometres"), **PLAIN, spacings="0.5 1.25 2", axis_mins="10 -20 30", centers="node node node",
+      units='"um" "mm" "mm"')
+for units in ('"mm" "mm" "furlong"', '"mm" "mm" ""', '"mm" "mm"', '"" "um" "um"', '"voxel" "voxel" "mm"'):
+    equal("space units %s" % units, Image(I2, affine(), warns=r"its axes have the units '.*SetSpacing\(\)"), space_units=units)
+# Times are told.
+for unit, warns in (("s", ""), ("sec", ""), ("", ""), ("???", ""), ("ms", "'ms'"), ("\u00B5s", "'\u00B5s'"), ("min", "'min'")):
+    warns = warns and "its times are in %s, and so are those of the mesh" % warns
+    frames, index = Image(FOUR, affine(), times(3), warns=warns), frame_list(0)
+    equal("space units in time %s" % unit, frames, **space_time(), space_units='"mm" "mm" "mm" "%s"' % unit)
+    equal("units in time %s" % unit, frames, **frame_list(), units='"" "" "" "%s"' % unit, space_units='"mm" "mm" "mm"')
+    equal("index unit %s" % unit, frames, array=np.moveaxis(FOUR, 0, 3),
+          **{**index, "keys": {**index["keys"], "axis 0 index unit": unit}})
+    equal("spacings, 4D, units in time %s" % unit, Image(FOUR, affine(origin=(0, 0, 0)), times(3, 0.0), warns=warns),
+          spacings="0.5 1.25 2 0.5", units='"mm" "mm" "mm" "%s"' % unit)
 for kinds in ("domain domain domain", "space space space", "??? ??? ???", "none none none", "Domain DOMAIN domain"):
     equal("kinds %s" % kinds, kinds=kinds)
 for centers in ("cell cell cell", "node node node", "??? ??? ???", "none none none"):
