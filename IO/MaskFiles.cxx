@@ -4,6 +4,7 @@
 
 #include "FileError.h"
 #include "ImageReading/InputFile.h"
+#include "ImageReading/Units.h"
 #include "MasksOnGrid.h"
 #include "Text.h"
 
@@ -171,26 +172,52 @@ private:
   std::vector<Said> All;
 };
 
-/** Nothing if their grids differ, and have not been offered. */
-std::optional<ImageAnswer> ReadMasks(
-  const std::vector<std::string>& paths, const ImageRequest& request, bool resample, bool offer)
+bool IsOf(const char* words, const std::string& warning)
 {
-  const auto read = [&request](const std::string& path)
+  return warning.find(words) != warning.npos;
+}
+
+/** Of one image, of which the reading process tells no more about its place. */
+ImageAnswer ReadWithPlace(const ImageRequest& request, const std::string& path)
+{
+  ImageRequest one = request;
+  one.Path = path;
+  ImageAnswer answer = ReadImage(one);
+  ScalarImage& image = answer.Image;
+  for (const std::string& warning : answer.Warnings)
   {
-    ImageRequest one = request;
-    one.Path = path;
-    return ReadImage(one);
-  };
+    image.HasPlace = image.HasPlace && !IsOf(OfPlace, warning);
+    image.HasSpacing = image.HasSpacing && !IsOf(OfSpacing, warning);
+    image.Unit = image.Unit.empty() ? UnitIn(warning) : image.Unit;
+  }
+  std::erase_if(answer.Warnings, [](const std::string& warning) { return IsOf(NoPlace, warning); });
+  return answer;
+}
+
+/** Nothing if their grids differ, and have not been offered. */
+std::optional<ImageAnswer> ReadMasks(const std::vector<std::string>& paths,
+  const ImageRequest& request, bool resample, bool isPlaced, bool offer)
+{
   const auto shown = [](const std::string& path) { return "'" + path + "'"; };
   MasksOnGrid masks(resample, request.MaskThreshold);
   for (std::size_t i = 0; offer && i < paths.size(); ++i)
   {
-    masks.OfferGrid(read(paths[i]).Image, shown(paths[i]));
+    masks.OfferGrid(ReadWithPlace(request, paths[i]).Image, shown(paths[i]));
+  }
+  if (offer && isPlaced)
+  {
+    masks.CheckOneOrigin();
   }
   FileWarnings warnings;
   for (const std::string& path : paths)
   {
-    ImageAnswer answer = read(path);
+    ImageAnswer answer = ReadWithPlace(request, path);
+    if (masks.TakePlace(answer.Image, shown(path)))
+    {
+      std::erase_if(answer.Warnings,
+        [](const std::string& warning)
+        { return IsOf(OfPlace, warning) || IsOf(OfSpacing, warning); });
+    }
     warnings.Add(path, answer.Warnings);
     if (!masks.Add({ NameOf(path), std::nullopt }, std::move(answer.Image), shown(path)))
     {
@@ -203,7 +230,7 @@ std::optional<ImageAnswer> ReadMasks(
 } // namespace
 
 ImageAnswer ReadImageOrMasks(
-  const std::vector<std::string>& paths, const ImageRequest& request, bool resample)
+  const std::vector<std::string>& paths, const ImageRequest& request, bool resample, bool isPlaced)
 {
   std::vector<std::string> warnings;
   std::vector<std::string> masks = paths;
@@ -214,16 +241,14 @@ ImageAnswer ReadImageOrMasks(
   }
   if (masks.empty())
   {
-    ImageRequest one = request;
-    one.Path = paths.front();
-    return ReadImage(one);
+    return ReadWithPlace(request, paths.front());
   }
   try
   {
-    std::optional<ImageAnswer> answer = ReadMasks(masks, request, resample, false);
+    std::optional<ImageAnswer> answer = ReadMasks(masks, request, resample, isPlaced, false);
     if (!answer)
     {
-      answer = ReadMasks(masks, request, resample, true);
+      answer = ReadMasks(masks, request, resample, isPlaced, true);
     }
     answer->Warnings.insert(answer->Warnings.begin(), warnings.begin(), warnings.end());
     return std::move(*answer);

@@ -25,12 +25,16 @@ namespace voxplex::io
  *
  * @param paths not empty
  * @param request its path is not used
+ * A mask whose file does not say where it lies is put where another one of its size lies.
+ *
  * @param resample whether masks are resampled to the finest grid, by nearest neighbour, if their grids differ by more
  *   than whole voxels
- * @throws FileError as ReadImage(), and for such grids otherwise, time frames, single slices, and values of no mask
+ * @param isPlaced whether the place of the result will be replaced, so that masks must have one
+ * @throws FileError as ReadImage(), and for such grids otherwise, sizes of masks without a place that no other has,
+ * different units of length, time frames, single slices, and values of no mask
  */
 ImageAnswer ReadImageOrMasks(
-  const std::vector<std::string>& paths, const ImageRequest& request, bool resample);
+  const std::vector<std::string>& paths, const ImageRequest& request, bool resample, bool isPlaced);
 
 } // namespace voxplex::io
 

@@ -246,25 +246,115 @@ std::shared_ptr<void> Allocate(std::size_t bytes)
 
 } // namespace
 
-void MasksOnGrid::OfferGrid(ScalarImage image, const std::string& shown)
+/** Of masks in millimetres and micrometres, one would be a thousand times too large. */
+void MasksOnGrid::Check(const ScalarImage& image, const std::string& shown) const
 {
   CheckIsMask(image, shown);
+  const auto other = std::find_if(this->Offered.begin(), this->Offered.end(),
+    [](const Place& place) { return place.Image.HasSpacing; });
+  if (image.HasSpacing && other != this->Offered.end() && other->Image.Unit != image.Unit)
+  {
+    const auto named = [](const std::string& unit) { return unit.empty() ? "millimetres" : unit; };
+    Refuse("masks must have one unit of length, but ", other->Shown, " is in ",
+      named(other->Image.Unit), ", and ", shown, " in ", named(image.Unit), ": save them with one");
+  }
+}
+
+/** Those that say where they lie, or all if none does. */
+std::vector<const MasksOnGrid::Place*> MasksOnGrid::Placed() const
+{
+  const bool isAny = std::any_of(this->Offered.begin(), this->Offered.end(),
+    [](const Place& place) { return place.Image.HasPlace; });
+  std::vector<const Place*> placed;
+  for (const Place& place : this->Offered)
+  {
+    if (place.Image.HasPlace || !isAny)
+    {
+      placed.push_back(&place);
+    }
+  }
+  return placed;
+}
+
+void MasksOnGrid::OfferGrid(ScalarImage image, const std::string& shown)
+{
+  this->Check(image, shown);
   image.Scalars.reset();
   this->Offered.push_back({ std::move(image), shown });
-  const Place& first = this->Offered.front();
+  const Place& first = *this->Placed().front();
   const Place& last = this->Offered.back();
-  if (!this->MayResample && !AreOnOneLattice(last.Image, first.Image))
+  if (last.Image.HasPlace && !this->MayResample && !AreOnOneLattice(last.Image, first.Image))
   {
     RefuseOther(first.Image, first.Shown, last.Image, last.Shown);
   }
 }
 
+bool MasksOnGrid::TakePlace(ScalarImage& image, const std::string& shown)
+{
+  if (image.HasPlace || this->Offered.empty())
+  {
+    return false;
+  }
+  std::vector<const Place*> same = this->Placed();
+  const bool isFirstPlaced = same.front()->Image.HasPlace;
+  const std::size_t others = std::erase_if(
+    same, [&image](const Place* place) { return place->Image.Dimensions != image.Dimensions; });
+  if (same.empty() && this->Offered.size() == 1) // there may be others
+  {
+    return false;
+  }
+  RefuseIf(same.empty() || (!isFirstPlaced && others > 0), shown,
+    " does not say where it lies, and must have the size of another mask that does, or of all, but "
+    "it has ",
+    Listed(image.Dimensions), " voxels: save masks with their place, as NRRD or NIfTI");
+  const Place& first = *same.front();
+  for (const Place* other : same)
+  {
+    RefuseIf(isFirstPlaced && !MatrixBetween(other->Image, first.Image)->IsIdentity(), shown,
+      " does not say where it lies, and masks of its size lie at several places, ", first.Shown,
+      " and ", other->Shown, ": save it with its place, as NRRD or NIfTI");
+  }
+  ScalarImage put = image;
+  put.Origin = first.Image.Origin;
+  put.Direction = first.Image.Direction;
+  if (!image.HasSpacing)
+  {
+    put.Spacing = first.Image.Spacing;
+    put.Unit = first.Image.Unit;
+  }
+  if (!(this->MayResample && !isFirstPlaced) && !AreOnOneLattice(put, first.Image))
+  {
+    RefuseOther(first.Image, first.Shown, put, shown);
+  }
+  if (!isFirstPlaced)
+  {
+    return false;
+  }
+  this->Put += (this->Put.empty() ? "" : ", ") + shown;
+  image = std::move(put);
+  image.HasPlace = image.HasSpacing = true;
+  return true;
+}
+
+void MasksOnGrid::CheckOneOrigin() const
+{
+  const Place& first = *this->Placed().front();
+  for (const Place* place : this->Placed())
+  {
+    RefuseIf(place->Image.Origin != first.Image.Origin,
+      "SetSpacing(), SetOrigin() and SetDirection() tell one place, but masks have several: ",
+      first.Shown, " begins at ", Listed(first.Image.Origin), ", and ", place->Shown, " at ",
+      Listed(place->Image.Origin), ": correct the files");
+  }
+}
+
 const MasksOnGrid::Place& MasksOnGrid::Finest() const
 {
-  return this->MayResample
-    ? *std::min_element(this->Offered.begin(), this->Offered.end(),
-        [](const Place& a, const Place& b) { return VoxelVolume(a.Image) < VoxelVolume(b.Image); })
-    : this->Offered.front();
+  const std::vector<const Place*> placed = this->Placed();
+  return this->MayResample ? **std::min_element(placed.begin(), placed.end(),
+                               [](const Place* a, const Place* b)
+                               { return VoxelVolume(a->Image) < VoxelVolume(b->Image); })
+                           : *placed.front();
 }
 
 ScalarImage MasksOnGrid::FindGrid() const
@@ -273,8 +363,9 @@ ScalarImage MasksOnGrid::FindGrid() const
   std::array<double, 4> first{ 0, 0, 0, 1 };
   std::array<double, 3> last{};
   double largest = 0;
-  for (const auto& [image, shown] : this->Offered)
+  for (const Place* place : this->Placed())
   {
+    const ScalarImage& image = place->Image;
     const auto [low, high] = BoxOf(image, MatrixBetween(image, grid), 0.5);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
@@ -308,7 +399,7 @@ ScalarImage MasksOnGrid::FindGrid() const
 
 bool MasksOnGrid::Add(const LabelTable::Entry& entry, ScalarImage image, const std::string& shown)
 {
-  CheckIsMask(image, shown);
+  this->Check(image, shown);
   if (this->Offered.empty())
   {
     this->OfferGrid(image, shown);
@@ -365,6 +456,12 @@ ImageAnswer MasksOnGrid::Finish(Overlap rule, std::vector<std::string> warnings)
   {
     answer.Warnings.push_back("masks reach too far beyond the finest grid, that of " +
       this->Finest().Shown + ", and lose voxels there: " + this->Lost);
+  }
+  if (!this->Put.empty())
+  {
+    answer.Warnings.push_back("masks that do not say where they lie were put where others of their "
+                              "size lie: " +
+      this->Put);
   }
   answer.Image = this->Union->Finish(rule, answer.Warnings);
   answer.Labels = std::move(this->Labels);

@@ -40,9 +40,21 @@ public:
   /**
    * Of each mask before the first is added; or of none, if all have one grid.
    *
-   * @throws FileError for time frames, a single slice, and voxels between those of the grid, unless they are resampled
+   * @throws FileError for time frames, a single slice, another unit of length, and voxels between those of the grid,
+   * unless they are resampled
    */
   void OfferGrid(ScalarImage image, const std::string& shown);
+
+  /**
+   * Puts a mask that does not say where it lies where another one of its size lies, if there is one that does.
+   *
+   * @return whether it was put there
+   * @throws FileError if there is none of its size, or several at different places, and for another spacing
+   */
+  bool TakePlace(ScalarImage& image, const std::string& shown);
+
+  /** @throws FileError if masks that were offered begin at different places, so that one place does not tell theirs */
+  void CheckOneOrigin() const;
 
   /**
    * @param entry its name may be empty: the label has none then
@@ -64,6 +76,8 @@ private:
     std::string Shown;
   };
 
+  void Check(const ScalarImage& image, const std::string& shown) const;
+  std::vector<const Place*> Placed() const;
   const Place& Finest() const;
   void Resample(const std::string& name, ScalarImage& image, const std::string& shown);
 
@@ -74,6 +88,7 @@ private:
   std::optional<MaskUnion> Union; ///< with the first mask
   LabelTable Labels;
   std::string Lost;
+  std::string Put; ///< which were put where others lie
 };
 
 } // namespace voxplex::io

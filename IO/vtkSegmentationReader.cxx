@@ -193,6 +193,17 @@ const std::string& vtkSegmentationReader::GetWarning(int i) const
     : none;
 }
 
+/** Whether the user says something of it. */
+bool vtkSegmentationReader::IsPlaced() const
+{
+  return std::any_of(
+           std::begin(this->Spacing), std::end(this->Spacing), [](double x) { return x > 0; }) ||
+    std::any_of(
+      std::begin(this->Origin), std::end(this->Origin), [](double x) { return !std::isnan(x); }) ||
+    std::any_of(
+      std::begin(this->Direction), std::end(this->Direction), [](double x) { return x != 0; });
+}
+
 /** Unless what was read last is still right. */
 bool vtkSegmentationReader::Read()
 {
@@ -215,7 +226,7 @@ bool vtkSegmentationReader::Read()
     ImageAnswer answer = ReadImageOrMasks(paths,
       { "", this->SeriesUID ? this->SeriesUID : "", this->DataFilesAnywhere,
         this->Overlap == OVERLAP_ORDER ? Overlap::Order : Overlap::Smallest, this->MaskThreshold },
-      this->ResampleMasks);
+      this->ResampleMasks, this->IsPlaced());
     data.Image = std::move(answer.Image);
     data.Labels = std::move(answer.Labels);
     data.Warnings = std::move(answer.Warnings);
@@ -271,7 +282,7 @@ void vtkSegmentationReader::PlaceImage()
     std::erase_if(this->Private->Warnings,
       [](const std::string& warning) { return warning.find("SetSpacing()") != std::string::npos; });
   }
-  if (!hasDirection && given == 0 && origin == image.Origin)
+  if (!this->IsPlaced())
   {
     return;
   }

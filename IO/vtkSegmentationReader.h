@@ -233,6 +233,7 @@ private:
   vtkSegmentationReader(const vtkSegmentationReader&) = delete;
   void operator=(const vtkSegmentationReader&) = delete;
 
+  bool IsPlaced() const;
   bool Read();
   void ReadLabels();
   void PlaceImage();

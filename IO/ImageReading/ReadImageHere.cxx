@@ -161,6 +161,11 @@ void WarnOfSpacing(Reading& reading)
     "its header gives no spacing of the voxels, which is taken to be 1; set it with SetSpacing()");
 }
 
+void WarnOfPlace(Reading& reading)
+{
+  reading.Warnings.emplace_back(NoPlace);
+}
+
 ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& allocate)
 {
   const std::string start = "cannot read '" + request.Path + "': ";

@@ -54,7 +54,11 @@ Geometry ReadGeometry(const TextHeader& header, std::size_t axes, Reading& readi
     geometry.Spacing.assign(axes, 1.0);
     WarnOfSpacing(reading);
   }
-  geometry.Origin.resize(axes, 0.0);
+  if (geometry.Origin.empty())
+  {
+    geometry.Origin.assign(axes, 0.0);
+    WarnOfPlace(reading);
+  }
   if (geometry.Directions.empty())
   {
     geometry.Directions.assign(axes * axes, 0.0);

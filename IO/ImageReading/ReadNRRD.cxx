@@ -335,6 +335,7 @@ void PlaceImage(const TextHeader& header, const std::vector<Axis>& axes, const R
   const bool hasSpaceUnits = header.Find("space units") != nullptr;
   const std::vector<double> given = header.Numbers({ "space origin" }, space.Dimension);
   const Vector3 factors = FactorsOfUnits(header, roles, reading);
+  bool hasOrigin = true;
   Vector3 origin{};
   std::array<Vector3, 3> steps{};
   for (std::size_t i = 0; i < 3; ++i)
@@ -343,6 +344,7 @@ void PlaceImage(const TextHeader& header, const std::vector<Axis>& axes, const R
     const double first = !given.empty() ? given[i] : hasDirections ? NaN : axis.First;
     const bool isMissing = std::isnan(first) && (given.empty() || !hasDirections);
     const double factor = hasSpaceUnits || !hasDirections ? factors[i] : 1.0;
+    hasOrigin = hasOrigin && !isMissing && !std::isnan(first);
     origin[i] = isMissing ? 0.0 : space.Signs[i] * first * factor;
     if (!hasDirections)
     {
@@ -362,6 +364,10 @@ void PlaceImage(const TextHeader& header, const std::vector<Axis>& axes, const R
     }
   }
   Place(image, steps, origin);
+  if (!hasOrigin)
+  {
+    WarnOfPlace(reading);
+  }
   if (!hasDirections && !hasSpacings)
   {
     WarnOfSpacing(reading);

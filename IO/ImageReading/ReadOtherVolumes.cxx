@@ -86,7 +86,8 @@ void PlaceMGH(const Fields& fields, ScalarImage& image, Reading& reading)
   if (!saysWhere)
   {
     reading.Warnings.push_back("its header does not say where the image lies: coronal slices of "
-                               "voxels of 1 mm were taken, as FreeSurfer does");
+                               "voxels of 1 mm were taken, as FreeSurfer does; set their size with "
+                               "SetSpacing()");
   }
 }
 

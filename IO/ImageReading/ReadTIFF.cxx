@@ -664,7 +664,11 @@ ScalarImage ReadTIFF(const std::string& path, Reading& reading)
   ScalarImage image;
   image.Type = reader.Type();
   SetSizes(image, { pages.Width, pages.Length, stack.Slices, stack.Frames });
-  PlaceAlongAxes(image, stack.Spacing, stack.Origin);
+  PlaceAlongAxes(image, stack.Spacing, stack.Origin.value_or(Vector3{}));
+  if (!stack.Origin)
+  {
+    WarnOfPlace(reading);
+  }
   image.TimeSpacing = stack.TimeStep;
   const std::size_t bytes = reader.BytesOfPage();
   reader.CheckClaim(bytes, stack.Pages.size());

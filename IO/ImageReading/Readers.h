@@ -50,8 +50,11 @@ struct Reading
   LabelTable Labels;
 };
 
-/** Where a header gives no spacing. */
+///@{
+/** Where a header gives no spacing, or no origin. */
 void WarnOfSpacing(Reading& reading);
+void WarnOfPlace(Reading& reading);
+///@}
 
 ///@{
 /**

@@ -127,6 +127,12 @@ struct ScalarImage
   std::array<double, 3> Spacing{};
   std::array<double, 9> Direction{}; ///< row-major; column j is the direction of axis j, LPS
 
+  // What masks that are joined must know. Others are placed anyway.
+  bool HasPlace =
+    true; ///< whether the file says where it lies: else origin and direction are a guess
+  bool HasSpacing = true; ///< the same of the spacing
+  std::string Unit;       ///< of lengths; empty: millimetres
+
   int Frames = 1; ///< 1: a 3D image
   double TimeOrigin = 0.0;
   double TimeSpacing = 1.0;  ///< positive

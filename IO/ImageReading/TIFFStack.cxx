@@ -303,8 +303,11 @@ TIFFStack DescribeImageJ(const TIFFPages& pages, Warnings& warnings)
   SetSpacing(stack, FindVoxelSizeOfImageJ(pages, fields), warnings);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const auto origin = FindNumber<double>(fields, std::string(1, "xyz"[axis]) + "origin");
-    stack.Origin[axis] = origin ? -*origin * stack.Spacing[axis] : 0.0; // it is counted in voxels
+    if (const auto origin = FindNumber<double>(fields, std::string(1, "xyz"[axis]) + "origin"))
+    {
+      stack.Origin = stack.Origin.value_or(Vector3{});
+      (*stack.Origin)[axis] = -*origin * stack.Spacing[axis]; // it is counted in voxels
+    }
   }
   SetTimeStep(stack, FindNumber<double>(fields, "finterval"), FindText(fields, "tunit"), warnings);
   ReadGreyCalibration(stack, pages, fields, warnings);

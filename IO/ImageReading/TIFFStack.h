@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,7 +53,7 @@ struct TIFFStack
   bool IsSignedWithOffset = false;
 
   Vector3 Spacing{ 1.0, 1.0, 1.0 };
-  Vector3 Origin{};
+  std::optional<Vector3> Origin; ///< nothing if the description has none
   double TimeStep = 1.0;
 };
 

@@ -19,6 +19,9 @@ struct Unit
   std::string_view Spellings; ///< between blanks
 };
 
+constexpr std::string_view LengthsAre = "its lengths are in ";
+constexpr std::string_view AndTheMesh = ", and so is the mesh";
+
 constexpr std::array<Unit, 10> Lengths{
   Unit{ "picometres", 1e-12, " pm picometer picometers picometre picometres " },
   Unit{ "angstroms", 1e-10, " \u00C5 \u212B A angstrom angstroms " },
@@ -82,9 +85,16 @@ void WarnOfLengths(const std::string& unit, std::vector<std::string>& warnings)
   const Unit* const known = FindUnit(unit);
   if (!unit.empty() && (!known || known->Name != "millimetres"))
   {
-    warnings.push_back("its lengths are in " +
-      (known ? std::string(known->Name) : "'" + Excerpt(unit) + "'") + ", and so is the mesh");
+    warnings.push_back(std::string(LengthsAre) +
+      (known ? std::string(known->Name) : "'" + Excerpt(unit) + "'") + std::string(AndTheMesh));
   }
+}
+
+std::string UnitIn(const std::string& warning)
+{
+  const std::size_t at = warning.find(LengthsAre);
+  const std::string unit = at == warning.npos ? "" : warning.substr(at + LengthsAre.size());
+  return unit.substr(0, unit.find(AndTheMesh));
 }
 
 void WarnOfTimes(const std::string& unit, std::vector<std::string>& warnings)

@@ -33,6 +33,9 @@ void WarnOfLengths(const std::string& unit, std::vector<std::string>& warnings);
 void WarnOfTimes(const std::string& unit, std::vector<std::string>& warnings);
 ///@}
 
+/** The unit of lengths that a warning tells; else empty. */
+std::string UnitIn(const std::string& warning);
+
 } // namespace voxplex::io
 
 #endif

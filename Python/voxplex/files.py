@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from . import program, xmlfiles
 from .errors import FileError, MeshingError
-from .images import Image, Path, check_shapes, place_of, read_nrrd, single_image, space_of, write_nrrd
+from .images import Image, Path, check_shapes, lies_somewhere, place_of, read_nrrd, single_image, space_of, write_nrrd
 from .meshes import Mesh
 
 if TYPE_CHECKING:
@@ -40,6 +40,7 @@ def read_segmentation(path: Union[Path, Sequence[Path], Mapping[str, Any]], *, s
     path: a file (NRRD, NIfTI, MetaImage, DICOM, TIFF, VTK, MGH, GIPL, MRC), or a folder with a DICOM series. Several
         files, or a folder of them, are masks, one for each structure: they become labels 1, 2, ... with the names of their
         files. So do masks of a dictionary, by name, each an array or another image that :func:`mesh` takes, or a file.
+        Arrays among other images lie where one of their size lies.
     space: the coordinates of the image, those of DICOM and ITK (LPS) or those of NIfTI (RAS).
     series_uid: which series, if the folder holds several.
     overlap: which of the masks that have a voxel gets it: the smallest (of equals the first), or the first in order.
@@ -88,14 +89,24 @@ def _mask_options(masks: Mapping[str, Any], place: Mapping[str, Any], folder: st
     check_shapes(masks)
     options, has_space = [], False
     words = [(f"'{os.path.join(folder, NAMES)}'", "the dictionary")]
-    for number, (name, mask) in enumerate(masks.items(), 1):
+    for name in masks:
         if not isinstance(name, str) or not name.strip() or _IS_NO_TEXT.search(name):
             raise ValueError(f"masks have names in one line of text, and none is called {name!r}")
-        image = single_image(mask, place)
-        path = os.path.join(folder, str(number), name.replace("/", "_")[:50] + ".nrrd")  # warnings show its name
-        os.mkdir(os.path.dirname(path))
-        write_nrrd(image, path, hidden_is_outside=False, space=image.space or "LPS")
-        has_space = has_space or image.space is not None
+    # Files that the program reads itself: only it knows what they do not say.
+    found: List[Tuple[str, Union[str, Image]]] = []
+    for name, mask in masks.items():
+        is_file = isinstance(mask, (str, os.PathLike)) and os.path.isfile(mask)
+        found.append((name, os.fsdecode(mask) if is_file and not place and len(masks) > 1 else single_image(mask, place)))
+    is_any_placed = any(isinstance(mask, str) or lies_somewhere(mask) for _, mask in found)
+    for number, (name, image) in enumerate(found, 1):
+        if isinstance(image, str):
+            path, has_space = image, True
+        else:
+            path = os.path.join(folder, str(number), name.replace("/", "_")[:50] + ".nrrd")  # warnings show its name
+            os.mkdir(os.path.dirname(path))
+            write_nrrd(image, path, hidden_is_outside=False, space=image.space or "LPS",
+                       is_placed=lies_somewhere(image) or not is_any_placed)
+            has_space = has_space or image.space is not None
         words.append((f"'{path}'", f"the mask {name!r}"))
         options.append("--input=" + path)
     if len(masks) == 1:

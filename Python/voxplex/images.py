@@ -66,6 +66,7 @@ class Image(HasFields):
         self.spacing = spacing_of(spacing)
         self.origin = origin_of(origin)
         self.direction = direction_of(numpy.eye(3) if direction is None else direction)
+        self._known: Optional[List[str]] = None  # what is given of the place of a bare array
         self.times = self._times(times)
         self.field_data: Fields = {}
         if names:
@@ -123,8 +124,9 @@ def image_of(image: Any, geometry: Mapping[str, Any], times: Optional[ArrayLike]
             raise ValueError("times: not with a dictionary of masks; give a list of dictionaries for frames")
         from .files import read_segmentation
         check_shapes(image)
-        masks = {name: single_image(mask, geometry) for name, mask in image.items()}
-        return read_segmentation(masks, space="RAS" if any(mask.space == "RAS" for mask in masks.values()) else "LPS")
+        masks = {name: mask if isinstance(mask, (str, os.PathLike)) and not geometry else single_image(mask, geometry)
+                 for name, mask in image.items()}
+        return read_segmentation(masks, space="RAS" if any(getattr(mask, "space", "") == "RAS" for mask in masks.values()) else "LPS")
     if isinstance(image, (str, os.PathLike)):
         return [os.fsdecode(image)]
     if isinstance(image, (list, tuple)) and image and times is None and all(isinstance(one, (str, os.PathLike)) for one in image):
@@ -142,7 +144,9 @@ def image_of(image: Any, geometry: Mapping[str, Any], times: Optional[ArrayLike]
     if kind == "nibabel":
         return _from_nibabel(image, times)
     if hasattr(image, "__array__"):
-        return Image(_MASKED.asanyarray(image), times=times, **geometry)
+        result = Image(_MASKED.asanyarray(image), times=times, **geometry)
+        result._known = list(geometry)
+        return result
     if isinstance(image, (list, tuple)) and image and not isinstance(image[0], (int, float, list, tuple)):
         return _series(image, geometry, times)
     raise TypeError("image must be an array, a path, a voxplex.Image, an image of VTK, PyVista, ITK, SimpleITK or nibabel, or "
@@ -192,8 +196,15 @@ def _series(frames: Sequence[Any], geometry: Mapping[str, Any], times: Optional[
     return result
 
 
-def write_nrrd(image: Image, path: str, hidden_is_outside: bool, space: str = "LPS") -> None:
-    """Writes an image as the program reads it; masked voxels become NaN if they are outside of isosurfaces, else 0."""
+def lies_somewhere(image: Image) -> bool:
+    """Whether it has a place, which a bare array has not."""
+    return image._known is None or "origin" in image._known or "direction" in image._known
+
+
+def write_nrrd(image: Image, path: str, hidden_is_outside: bool, space: str = "LPS", is_placed: bool = True) -> None:
+    """Writes an image as the program reads it; masked voxels become NaN if they are outside of isosurfaces, else 0.
+
+    is_placed: otherwise the file has the spacing alone, if it was given."""
     voxels = _stored(image.voxels)
     if image.mask is not None and hidden_is_outside and voxels.dtype.kind != "f":
         voxels = voxels.astype(numpy.float32 if voxels.dtype.itemsize < 4 else numpy.float64)
@@ -206,6 +217,9 @@ def write_nrrd(image: Image, path: str, hidden_is_outside: bool, space: str = "L
               f"sizes: {' '.join(map(str, reversed(voxels.shape)))}",
               f"space directions: {' '.join(columns + ['none'] * image.is_series)}", f"kinds: {' '.join(kinds)}",
               f"space origin: ({','.join(map(repr, image.origin))})", "endian: little", "encoding: raw"]
+    if not is_placed:
+        header = [line for line in header if not line.startswith("space")]
+        header += [f"spacings: {' '.join(map(repr, image.spacing))}"] * ("spacing" in (image._known or []))
     with open(path, "wb") as file:
         file.write(("\n".join(header) + "\n\n").encode())
         masks = image.mask if image.is_series else None if image.mask is None else image.mask[numpy.newaxis]

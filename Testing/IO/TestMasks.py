@@ -16,7 +16,11 @@ from vtkmodules.vtkCommonDataModel import (
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 
 import images
+import matrix.metaimage
+import matrix.mgh
+import matrix.nifti
 import meshfiles
+import TestTIFF
 import voxplex
 from iotesting import FolderTestCase, table_of, warnings_of
 
@@ -534,6 +538,116 @@ class InMemory(MaskTestCase):
         source.SetOutput(self.image(np.zeros(shape, np.uint8), spacing=(1, 1, 1)))
         mesher.Update()
         self.assertEqual(mesher.GetOutput().GetCellData().GetArray("Label").GetRange(), (2, 2))
+
+
+class Unplaced(MaskTestCase):
+    """Masks whose files do not say where they lie, beside others."""
+
+    SHAPE = (6, 7, 8)
+    PLACE = images.Geometry((-12.5, 40.0, 7.25), (0.5, 1.25, 2.0), Grids.TURN)
+    MASK, OTHER = box(SHAPE, (1, 4), (1, 5), (1, 4)), box(SHAPE, (3, 6), (2, 6), (3, 7))
+    # A description with the right spacing, which is no place yet; ImageJ's in voxels for a unit.
+    IMAGEJ = {**TestTIFF.text("ImageJ=1.53t\nimages=6\nslices=6\nunit=mm\nspacing=2\n"), **TestTIFF.resolution(2, 0.8, 1)}
+
+    def file(self, kind, array, name="plain"):
+        """Without a place, by code that is not images.py's."""
+        if kind.startswith("TIFF"):
+            return TestTIFF.write(self.folder / (name + ".tif"), array, tags=self.IMAGEJ if kind == "TIFF of ImageJ" else {})
+        plain = {"space": None, "space directions": None, "space origin": None}
+        if kind.startswith("NRRD"):
+            lines = {"NRRD": plain, "NRRD with spacings": {**plain, "spacings": "0.5 1.25 2"},
+                     "NRRD without an origin": {"space origin": None}}[kind]
+            return images.write_nrrd(self.folder / (name + ".nrrd"), array, self.PLACE, header_lines=lines)
+        files = {"NIfTI": lambda: matrix.nifti.nifti(array, name + ".nii", pixdim=(1, 0.5, 1.25, 2)),
+                 "MGH": lambda: matrix.mgh.mgh(array, name + ".mgh", good=0),
+                 "MetaImage": lambda: matrix.metaimage.metaimage(array, name + ".mha", Offset=None)}[kind]()
+        return files.write(self.folder)
+
+    KINDS = ("TIFF", "TIFF of ImageJ", "NRRD", "NRRD with spacings", "NRRD without an origin", "NIfTI", "MGH", "MetaImage")
+
+    def test_put_where_others_lie(self):
+        placed = images.write_nrrd(self.folder / "placed.nrrd", self.OTHER, self.PLACE)
+        cut = images.write_nrrd(self.folder / "cut.nrrd", self.OTHER[2:], images.Geometry(
+            np.array(self.PLACE.origin) + 4.0 * Grids.TURN[:, 2], self.PLACE.spacing, self.PLACE.direction))
+        for n, kind in enumerate(self.KINDS):
+            plain = self.file(kind, self.MASK)
+            for resample, paths in enumerate(([plain, placed], [cut, placed, plain]) if n % 2 else
+                                             ([placed, plain], [plain, placed, cut])):
+                with self.subTest(kind, paths=paths, resample=resample):
+                    reader = self.read_masks(paths, ResampleMasks=bool(resample))
+                    image = reader.GetOutput()
+                    np.testing.assert_allclose(image.GetOrigin(), self.PLACE.origin, atol=1e-9)
+                    np.testing.assert_allclose(image.GetSpacing(), self.PLACE.spacing)
+                    masks = [self.MASK if path is plain else self.OTHER for path in paths]
+                    np.testing.assert_array_equal(voxels(image), combined([mask > 0 for mask in masks], SMALLEST))
+                    told = warnings_of(reader)
+                    self.assertIn("masks that do not say where they lie were put where others of their size lie: "
+                                  f"'{plain}'", told)
+                    self.assertNotRegex(" ".join(told), "SetSpacing|image lies")
+            reader = self.reader(plain)  # alone it says what it said
+            self.assertEqual(reader.GetErrorMessage(), "")
+            self.assertNotRegex(" ".join(warnings_of(reader)), "it does not say where")
+
+    def test_refused(self):
+        placed = images.write_nrrd(self.folder / "placed.nrrd", self.OTHER, self.PLACE)
+        apart = images.write_nrrd(self.folder / "apart.nrrd", self.OTHER, images.Geometry(
+            (0, 0, 0), self.PLACE.spacing, self.PLACE.direction))
+        moved = images.write_nrrd(self.folder / "moved.nrrd", self.OTHER, images.Geometry(
+            np.array(self.PLACE.origin) + 4.0 * Grids.TURN[:, 2], self.PLACE.spacing, self.PLACE.direction))
+        longer = np.concatenate([self.MASK, self.MASK])
+        for kind, resample in (("TIFF", False), ("NRRD", True), ("NRRD without an origin", False), ("NIfTI", True)):
+            small, same = self.file(kind, longer, "small"), self.file(kind, self.MASK)
+            with self.subTest(kind, resample=resample):
+                for paths in ([small, placed], [placed, same, small], [same, small]):
+                    self.masks_refused("' does not say where it lies, and must have the size of another mask that does, or of "
+                                       "all, but it has 8 7 (6|12) voxels", paths, ResampleMasks=resample)
+                for others in ([placed, moved],) + (([placed, apart],) if resample else ()):
+                    for paths in ([same, *others], [*others, same]):
+                        self.masks_refused("does not say where it lies, and masks of its size lie at several places",
+                                           paths, ResampleMasks=resample)
+        for resample in (False, True):
+            other = images.write_nrrd(self.folder / "other.nrrd", self.OTHER, images.Geometry(
+                self.PLACE.origin, (1, 1, 1), self.PLACE.direction))
+            for kind in ("TIFF of ImageJ", "MetaImage"):
+                self.masks_refused("spacing", [other, self.file(kind, self.MASK)], ResampleMasks=resample)
+
+    def test_all_without(self):
+        """They lie together, wherever that is."""
+        for kind in self.KINDS:
+            paths = [self.file(kind, self.MASK, "a"), self.file(kind, self.OTHER, "b")]
+            for properties in ({}, {"Origin": (1, 2, 3), "Spacing": (0.5, 0.5, 3)}):
+                image = self.read_masks(paths, **properties).GetOutput()
+                np.testing.assert_array_equal(voxels(image), combined([self.MASK > 0, self.OTHER > 0], SMALLEST))
+                if properties:
+                    np.testing.assert_allclose(image.GetOrigin(), (1, 2, 3))
+
+    def test_one_place_for_several(self):
+        """A place that is given replaces one, not those of masks that begin at several."""
+        geometry = [images.Geometry(np.array(self.PLACE.origin) + n * self.PLACE.spacing[0] * Grids.TURN[:, 0], self.PLACE.spacing,
+                                    self.PLACE.direction) for n in (0, 3)]
+        a, b = (images.write_nrrd(self.folder / f"{n}.nrrd", self.MASK, one) for n, one in enumerate(geometry))
+        same = images.write_nrrd(self.folder / "same.nrrd", self.OTHER[:4], geometry[0])
+        plain = self.file("TIFF", self.MASK)
+        for properties in ({"Origin": (0, 0, 0)}, {"Spacing": (1, 1, 1)}, {"Direction": np.eye(3).ravel().tolist()}):
+            for paths, resample in itertools.product(([a, b], [b, a], [same, b]), (False, True)):
+                self.masks_refused(r"tell one place, but masks have several: '.*' begins at .*, and '.*' at .*", paths,
+                                   ResampleMasks=resample, **properties)
+            for paths in ([a, same], [a, plain], [plain, a], [plain, same, a]):
+                self.read_masks(paths, **properties)
+
+    def test_units(self):
+        """Masks in micrometres and in millimetres are not joined as if these were one."""
+        um, mm, none = (images.write_nrrd(self.folder / f"{n}.nrrd", self.MASK, self.PLACE, header_lines=units and {
+            "space units": units}) for n, units in enumerate(('"um" "um" "um"', '"mm" "mm" "mm"', None)))
+        other = images.write_nrrd(self.folder / "other.nrrd", self.OTHER, self.PLACE, header_lines={
+            "space units": '"micron" "micron" "micron"'})
+        plain = self.file("TIFF of ImageJ", self.MASK)
+        for resample in (False, True):
+            for paths in ([um, mm], [mm, um], [none, um], [um, none], [um, plain], [plain, um], [mm, none, um]):
+                self.masks_refused("masks must have one unit of length, but '.*' is in m(icro|illi)metres, and '.*' in m",
+                                   paths, ResampleMasks=resample)
+            for paths in ([um, other], [mm, none], [plain, mm], [um, self.file("TIFF", self.MASK, "other")]):
+                self.read_masks(paths, ResampleMasks=resample)
 
 
 class Rules(MaskTestCase):

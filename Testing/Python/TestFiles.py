@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy
 import voxplex
 from phantoms import beating, brick
+from voxplex.images import image_of
 
 try:
     import meshfiles
@@ -227,6 +228,28 @@ class Files(unittest.TestCase):
         for wrong in (series, [series[0], beating()[1]]):
             with self.assertRaisesRegex(ValueError, "must have the same names, in the same order"):
                 voxplex.mesh(wrong, 2.0)
+
+    def test_masks_without_a_place(self):
+        """Arrays, and files that do not say where they lie, beside images that do."""
+        place = {"spacing": SPACING, "origin": ORIGIN, "direction": DIRECTION}
+        first, second = self.labels == 9, self.labels > 0
+        path = os.path.join(self.folder, "plain.nrrd")
+        with open(path, "wb") as file:
+            file.write(f"NRRD0004\ntype: uint8\ndimension: 3\nsizes: {' '.join(map(str, first.shape[::-1]))}\nencoding: raw\n\n"
+                       .encode() + first.tobytes())
+        for mask in (first, first.astype(float), path):
+            for masks in ({"a": mask, "b": voxplex.Image(second, **place)}, {"b": self.image, "a": mask}):
+                for read in (voxplex.read_segmentation, lambda masks: image_of(masks, {}, None)):
+                    with self.assertWarnsRegex(voxplex.MeshingWarning, "do not say where they lie were put where .*: the mask 'a'"):
+                        image = read(masks)
+                    numpy.testing.assert_allclose(image.origin, ORIGIN)
+                    numpy.testing.assert_allclose(image.direction * image.spacing, DIRECTION * SPACING)
+                    numpy.testing.assert_array_equal(image.voxels > 0, second)
+            with self.assertRaisesRegex(voxplex.FileError, "the mask 'a' does not say where it lies, and must have the size"):
+                voxplex.read_segmentation({"a": mask, "b": voxplex.Image(second[1:], **place)})
+        with self.assertWarnsRegex(voxplex.MeshingWarning, "the mask 'a'"):
+            image = voxplex.read_segmentation({"a": first, "b": self.image}, spacing=(9, 9, 9))
+        numpy.testing.assert_allclose(image.origin, ORIGIN)
 
     def test_masks_on_other_grids(self):
         fine, coarse = numpy.ones((6, 8, 10), bool), numpy.ones((2, 4, 5), bool)
