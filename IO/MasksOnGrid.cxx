@@ -3,17 +3,12 @@
 #include "MasksOnGrid.h"
 
 #include "FileError.h"
-#include "Space.h"
 #include "Text.h"
-#include "VTKImage.h"
 
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
-#include <vtkImageReslice.h>
 #include <vtkMatrix3x3.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
+#include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <array>
@@ -204,28 +199,114 @@ std::uint64_t CountBeyond(const ScalarImage& mask, const ScalarImage& grid, doub
     });
 }
 
+std::shared_ptr<void> Allocate(std::size_t bytes)
+{
+  const std::shared_ptr<std::byte[]> memory(new std::byte[bytes]);
+  return { memory, memory.get() };
+}
+
+/** Whether the middle of two voxels is meant. Some headers have single precision. */
+bool IsTie(double index)
+{
+  constexpr double tolerance = 1e-4;
+  return std::abs(index - std::floor(index) - 0.5) < tolerance;
+}
+
+/** Of two that are as near the even one, so that faces do not all move to one side. */
+int Nearest(double index)
+{
+  return static_cast<int>(
+    IsTie(index) ? std::nearbyint(std::floor(index) + 0.5) : std::round(index));
+}
+
+/** Whether voxels of a grid lie in the middle between those of a mask along an axis of both. */
+bool HasTies(const ScalarImage& mask, const ScalarImage& grid)
+{
+  const vtkSmartPointer<vtkMatrix4x4> matrix = MatrixBetween(grid, mask);
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double step = matrix->GetElement(row, axis);
+      const double others = std::abs(matrix->GetElement(row, (axis + 1) % 3)) +
+        std::abs(matrix->GetElement(row, (axis + 2) % 3));
+      const int size = grid.Dimensions[static_cast<std::size_t>(axis)];
+      for (int i = 0; others * MostVoxels < 1.0 && step != 0 && i < size; ++i)
+      {
+        if (IsTie(matrix->GetElement(row, 3) + i * step))
+        {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+/** What a row of a grid adds to the number of a voxel along one axis of a mask; that is far below 0 beyond the mask. */
+struct NearestInRow
+{
+  double Begin = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::ptrdiff_t> Steps; ///< one, if it is the same for all voxels of the row
+
+  void Update(double begin, double step, int count, int size, std::ptrdiff_t stride)
+  {
+    if (begin == this->Begin)
+    {
+      return; // as in the row before: grids are often parallel
+    }
+    this->Begin = begin;
+    this->Steps.clear();
+    for (int i = 0; i < (step == 0 ? 1 : count); ++i)
+    {
+      const int near = Nearest(begin + i * step);
+      this->Steps.push_back(
+        near >= 0 && near < size ? near * stride : std::numeric_limits<std::ptrdiff_t>::min() / 4);
+    }
+  }
+
+  std::ptrdiff_t At(int i) const
+  {
+    return this->Steps.size() == 1 ? this->Steps[0] : this->Steps[static_cast<std::size_t>(i)];
+  }
+};
+
+template <typename T>
+void ResampleAs(const ScalarImage& mask, const ScalarImage& grid, T* to)
+{
+  const vtkSmartPointer<vtkMatrix4x4> matrix = MatrixBetween(grid, mask);
+  const T* const from = static_cast<const T*>(mask.Scalars.get());
+  const std::array<std::ptrdiff_t, 3> strides{ 1, mask.Dimensions[0],
+    std::ptrdiff_t{ mask.Dimensions[0] } * mask.Dimensions[1] };
+  std::array<NearestInRow, 3> near;
+  for (int k = 0; k < grid.Dimensions[2]; ++k)
+  {
+    for (int j = 0; j < grid.Dimensions[1]; ++j)
+    {
+      std::array<double, 4> begin{ 0, static_cast<double>(j), static_cast<double>(k), 1 };
+      matrix->MultiplyPoint(begin.data(), begin.data());
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        near[axis].Update(begin[axis], matrix->GetElement(static_cast<int>(axis), 0),
+          grid.Dimensions[0], mask.Dimensions[axis], strides[axis]);
+      }
+      for (int i = 0; i < grid.Dimensions[0]; ++i)
+      {
+        const std::ptrdiff_t voxel = near[0].At(i) + near[1].At(i) + near[2].At(i);
+        *to++ = voxel < 0 ? T(0) : from[voxel];
+      }
+    }
+  }
+}
+
 /** Nearest neighbours at the voxels of a grid, 0 beyond the mask. */
 ScalarImage Resample(const ScalarImage& mask, const ScalarImage& grid)
 {
-  const vtkSmartPointer<vtkImageData> input = ToVTKImage(mask, Space::LPS);
-  input->SetOrigin(0, 0, 0); // vtkImageReslice knows no directions: all is in indices
-  input->SetSpacing(1, 1, 1);
-  input->SetDirectionMatrix(1, 0, 0, 0, 1, 0, 0, 0, 1);
-  vtkNew<vtkImageReslice> reslice;
-  reslice->SetInputData(input);
-  const vtkSmartPointer<vtkMatrix4x4> matrix = MatrixBetween(mask, grid);
-  matrix->Invert();
-  reslice->SetResliceAxes(matrix);
-  reslice->SetInterpolationModeToNearestNeighbor();
-  reslice->SetOutputOrigin(0, 0, 0);
-  reslice->SetOutputSpacing(1, 1, 1);
-  reslice->SetOutputExtent(
-    0, grid.Dimensions[0] - 1, 0, grid.Dimensions[1] - 1, 0, grid.Dimensions[2] - 1);
-  reslice->Update();
-  vtkSmartPointer<vtkDataArray> voxels = reslice->GetOutput()->GetPointData()->GetScalars();
   ScalarImage result = grid;
   result.Type = mask.Type;
-  result.Scalars = { voxels->GetVoidPointer(0), [voxels](void*) {} };
+  result.Scalars = Allocate(grid.NumberOfVoxels() * SizeOf(mask.Type));
+  Dispatch(mask.Type,
+    [&](auto zero) { ResampleAs(mask, grid, static_cast<decltype(zero)*>(result.Scalars.get())); });
   return result;
 }
 
@@ -236,12 +317,6 @@ void CheckIsMask(const ScalarImage& image, const std::string& shown)
     " time frames, and a mask has three dimensions: give it alone");
   RefuseIf(std::count(image.Dimensions.begin(), image.Dimensions.end(), 1) > 0, start,
     "one slice, and a mask is a volume: save the slices as one volume, or give a folder of DICOM");
-}
-
-std::shared_ptr<void> Allocate(std::size_t bytes)
-{
-  const std::shared_ptr<std::byte[]> memory(new std::byte[bytes]);
-  return { memory, memory.get() };
 }
 
 } // namespace
@@ -357,9 +432,53 @@ const MasksOnGrid::Place& MasksOnGrid::Finest() const
                            : *placed.front();
 }
 
-ScalarImage MasksOnGrid::FindGrid() const
+/** The finest grid, with the finest spacing along each of its axes that a mask has. */
+ScalarImage MasksOnGrid::Refined() const
 {
   ScalarImage grid = this->Finest().Image;
+  std::array<double, 4> first{ 0, 0, 0, 1 };
+  std::array<double, 3> ratios{ 1, 1, 1 };
+  for (const Place* place : this->Placed())
+  {
+    const vtkSmartPointer<vtkMatrix4x4> matrix = MatrixBetween(place->Image, grid);
+    for (int row = 0; row < 3; ++row)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        std::array<double, 3> step;
+        for (int r = 0; r < 3; ++r)
+        {
+          step[static_cast<std::size_t>(r)] = matrix->GetElement(r, axis);
+        }
+        const auto along = static_cast<std::size_t>(row);
+        const double ratio = std::abs(step[along]);
+        step[along] = 0;
+        const bool isParallel = std::all_of(
+          step.begin(), step.end(), [ratio](double x) { return std::abs(x) < Tolerance * ratio; });
+        if (isParallel && ratio < ratios[along] * (1 - Tolerance))
+        {
+          ratios[along] = ratio;
+          const double begin = matrix->GetElement(row, 3);
+          const double low = (ratio - 1.0) / 2.0 - Tolerance * ratio; // in the first voxel
+          first[along] = begin + std::ceil((low - begin) / ratio) * ratio;
+        }
+      }
+    }
+  }
+  vtkNew<vtkMatrix4x4> places;
+  GetMatrix(grid, places);
+  places->MultiplyPoint(first.data(), first.data());
+  std::copy_n(first.begin(), 3, grid.Origin.begin());
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    grid.Spacing[axis] *= ratios[axis];
+  }
+  return grid;
+}
+
+/** To all masks; nothing if it has too many voxels then. */
+std::optional<ScalarImage> MasksOnGrid::Extended(ScalarImage grid) const
+{
   std::array<double, 4> first{ 0, 0, 0, 1 };
   std::array<double, 3> last{};
   double largest = 0;
@@ -384,7 +503,7 @@ ScalarImage MasksOnGrid::FindGrid() const
   }
   if (!isInRange || count > std::max(MostVoxels, MostTimes * largest))
   {
-    return grid;
+    return std::nullopt;
   }
   vtkNew<vtkMatrix4x4> matrix;
   GetMatrix(grid, matrix);
@@ -395,6 +514,14 @@ ScalarImage MasksOnGrid::FindGrid() const
   matrix->MultiplyPoint(first.data(), first.data());
   std::copy_n(first.begin(), 3, grid.Origin.begin());
   return grid;
+}
+
+ScalarImage MasksOnGrid::FindGrid() const
+{
+  const ScalarImage& finest = this->Finest().Image;
+  std::optional<ScalarImage> grid =
+    this->MayResample ? this->Extended(this->Refined()) : std::nullopt;
+  return grid ? *grid : this->Extended(finest).value_or(finest);
 }
 
 bool MasksOnGrid::Add(const LabelTable::Entry& entry, ScalarImage image, const std::string& shown)
@@ -445,6 +572,10 @@ void MasksOnGrid::Resample(const std::string& name, ScalarImage& image, const st
     }
     this->Lost += (this->Lost.empty() ? "" : ", ") + Excerpt(name) + " " + std::to_string(lost);
   }
+  if (HasTies(image, this->Grid))
+  {
+    this->Ties += (this->Ties.empty() ? "" : ", ") + Excerpt(name);
+  }
   image = io::Resample(image, this->Grid);
 }
 
@@ -456,6 +587,12 @@ ImageAnswer MasksOnGrid::Finish(Overlap rule, std::vector<std::string> warnings)
   {
     answer.Warnings.push_back("masks reach too far beyond the finest grid, that of " +
       this->Finest().Shown + ", and lose voxels there: " + this->Lost);
+  }
+  if (!this->Ties.empty())
+  {
+    answer.Warnings.push_back("faces of masks lie in the middle of voxels of the finest grid, and "
+                              "are up to half a voxel off: " +
+      this->Ties);
   }
   if (!this->Put.empty())
   {

@@ -27,7 +27,8 @@ class MasksOnGrid
 public:
   /**
    * The grid is that of the first mask or, if masks may be resampled to it, by nearest neighbour, that with the smallest
-   * voxels. It is extended to all that are offered, unless they would need too much memory.
+   * voxels, with the finest spacing along each axis that a mask with parallel axes has. It is extended to all that are
+   * offered, unless they would need too much memory.
    *
    * @param threshold above which probabilities are inside
    */
@@ -79,6 +80,8 @@ private:
   void Check(const ScalarImage& image, const std::string& shown) const;
   std::vector<const Place*> Placed() const;
   const Place& Finest() const;
+  ScalarImage Refined() const;
+  std::optional<ScalarImage> Extended(ScalarImage grid) const;
   void Resample(const std::string& name, ScalarImage& image, const std::string& shown);
 
   bool MayResample;
@@ -88,7 +91,8 @@ private:
   std::optional<MaskUnion> Union; ///< with the first mask
   LabelTable Labels;
   std::string Lost;
-  std::string Put; ///< which were put where others lie
+  std::string Ties; ///< those with faces in the middle of voxels
+  std::string Put;  ///< which were put where others lie
 };
 
 } // namespace voxplex::io

@@ -21,7 +21,8 @@
  * @par Output
  * vtkImageData with the point scalars `Labels`, and with the field data of vtkSegmentationReader: `SPACE`,
  * `LabelValues`, `LabelNames`, `LabelColors`. It is in the coordinates of the first mask (LPS, if it does not say), on
- * the grid of the first, or of that with the smallest voxels if ResampleMasks is on, extended to all masks.
+ * the grid of the first, or if ResampleMasks is on of that with the smallest voxels, with the finest spacing along each
+ * of its axes that a mask has, extended to all masks.
  *
  * @par Errors
  * Reported with vtkErrorMacro; GetErrorMessage() keeps the reason, and the output is empty: masks between voxels of others,

@@ -266,6 +266,60 @@ class Grids(MaskTestCase):
         self.assertEqual(joiner.GetOutput().GetNumberOfPoints(), 0)
 
 
+class Finest(MaskTestCase):
+    """Masks with parallel axes, in any order and direction, where each may have the finest spacing of an axis."""
+
+    SHAPE = (24, 30, 36)  # of the finest grid, [k, j, i], with the spacing 1
+    CENTRE, RADIUS = np.array((17.3, 14.6, 11.9)), 8.4  # in i, j, k of that grid
+
+    def ball(self, first, steps, sizes):
+        """Indexed [k, j, i] of a grid with these steps, whose columns are in the finest indices."""
+        index = np.moveaxis(np.indices(sizes[::-1])[::-1], 0, -1)
+        return (np.linalg.norm(index @ np.transpose(steps) + first - self.CENTRE, axis=-1) < self.RADIUS).astype(np.uint8)
+
+    def save(self, name, first, steps):
+        """Steps along i, j, k of the file, in finest indices, as many as the finest grid holds from the first voxel on."""
+        sizes = [int(np.min([(n - 1 - at if step > 0 else at) // abs(step) for n, at, step in
+                             zip(self.SHAPE[::-1], first, column) if step])) + 1 for column in np.transpose(steps)]
+        steps, turn = np.asarray(steps, float), Grids.TURN
+        spacing = np.linalg.norm(steps, axis=0)
+        return images.write_nrrd(self.folder / f"{name}.nrrd", self.ball(first, steps, sizes), images.Geometry(
+            turn @ first, spacing, turn @ steps / spacing))
+
+    def test_each_axis(self):
+        swapped = np.array([[0, -4, 0], [0, 0, 1], [2, 0, 0]])
+        for n, (a, b) in enumerate(((np.diag((1, 1, 3)), np.diag((2, 2, 1))), (np.diag((1, 3, 1)), swapped),
+                                    (np.diag((4, 1, 2)), np.diag((1, 4, -1))), (np.diag((1, 1, 2)), np.diag((2, 2, 2))))):
+            paths = [self.save("a", (0, 0, 0), a), self.save("b", [35 * (b[0].min() < 0), 0, 23 * (b[2].min() < 0)], b)]
+            finest = [min(np.linalg.norm(s, axis=0)[np.argmax(abs(s[axis]))] for s in (a, b)) for axis in range(3)]
+            for order in (paths, paths[::-1]):
+                with self.subTest(n, order=order):
+                    image = self.read_masks(order, ResampleMasks=True, Overlap=ORDER).GetOutput()
+                    steps = np.reshape([image.GetDirectionMatrix().GetElement(r, c) for r in range(3) for c in range(3)],
+                                       (3, 3)) * image.GetSpacing()
+                    inFinest = Grids.TURN.T @ steps
+                    np.testing.assert_allclose(abs(inFinest).sum(axis=1), finest, atol=1e-9)
+                    centroid = [0.0] * 3
+                    image.TransformContinuousIndexToPhysicalPoint(np.argwhere(voxels(image).T).mean(axis=0).tolist(), centroid)
+                    self.assertLess(np.linalg.norm(Grids.TURN.T @ centroid - self.CENTRE), 0.5)
+
+    def test_ties(self):
+        """Faces in the middle of voxels are rounded to both sides in turn, and the program says so."""
+        fine = self.save("fine", (0, 0, 0), np.eye(3))
+        for ratio in (2, 3):
+            coarse = self.save("coarse", (0, 0, 0), ratio * np.eye(3))
+            truth = (np.argwhere(self.ball((0, 0, 0), ratio * np.eye(3), [n // ratio + 1 for n in self.SHAPE[::-1]])[
+                :-1, :-1, :-1])[:, ::-1] * ratio)
+            reader = self.read_masks([coarse, fine], ResampleMasks=True, Overlap=ORDER)
+            ours = np.argwhere(voxels(reader.GetOutput()) == 1)[:, ::-1]
+            centroid = [0.0] * 3
+            reader.GetOutput().TransformContinuousIndexToPhysicalPoint(ours.mean(axis=0).tolist(), centroid)
+            self.assertLess(np.linalg.norm(Grids.TURN.T @ centroid - truth.mean(axis=0)), 0.3)
+            self.assertAlmostEqual(len(ours) / (len(truth) * ratio**3), 1, delta=0.06)
+            told = " ".join(warnings_of(reader))
+            (self.assertNotIn if ratio == 3 else self.assertIn)("in the middle of voxels of the finest grid", told)
+
+
 class Cropped(MaskTestCase):
     """Masks of one grid, each cut to a box of its own."""
 
