@@ -109,20 +109,10 @@ std::vector<std::string> ReadImage(vtkSegmentationReader* reader, UserInterface 
   {
     throw RunError(InTermsOf(interface, reader->GetErrorMessage()));
   }
-  std::vector<std::string> warnings;
-  for (int i = 0; i < reader->GetNumberOfWarnings(); ++i)
+  std::vector<std::string> warnings = WarningsOf(reader);
+  for (std::string& warning : warnings)
   {
-    warnings.push_back(InTermsOf(interface, reader->GetWarning(i)));
-  }
-  return warnings;
-}
-
-std::vector<std::string> WarningsOf(const vtkImageToSimplexMeshFilter* filter)
-{
-  std::vector<std::string> warnings;
-  for (int i = 0; i < filter->GetNumberOfWarnings(); ++i)
-  {
-    warnings.push_back(filter->GetWarning(i));
+    warning = InTermsOf(interface, warning);
   }
   return warnings;
 }

@@ -41,8 +41,17 @@ using ProgressFunction = std::function<bool(double fraction, const std::string& 
  */
 std::vector<std::string> ReadImage(vtkSegmentationReader* reader, UserInterface interface);
 
-/** How the mesh that a filter has made differs from what was asked for. */
-std::vector<std::string> WarningsOf(const vtkImageToSimplexMeshFilter* filter);
+/** How what a filter has made differs from what was asked for. */
+template <typename Filter>
+std::vector<std::string> WarningsOf(const Filter* filter)
+{
+  std::vector<std::string> warnings;
+  for (int i = 0; i < filter->GetNumberOfWarnings(); ++i)
+  {
+    warnings.push_back(filter->GetWarning(i));
+  }
+  return warnings;
+}
 
 /** Executes a filter. If `progress` cancels, its GetAborted() is true afterwards. */
 void Execute(vtkAlgorithm* filter, const ProgressFunction& progress);

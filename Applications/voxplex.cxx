@@ -281,16 +281,48 @@ MeshWithInterfaces ReadMesh(const Parameters& p, const MeshingInput& input)
   return given;
 }
 
-/** The highest of all frames. */
-std::int64_t HighestLabel(vtkSegmentationReader* reader)
+/** Of all frames; empty if one has other things. */
+std::set<std::int64_t> AllLabels(vtkSegmentationReader* reader)
 {
-  double highest = 0.0;
+  std::set<std::int64_t> labels;
   for (int frame = 0; frame < reader->GetNumberOfFrames(); ++frame)
   {
     reader->UpdateTimeStep(reader->GetTimeOfFrame(frame));
-    highest = std::max(highest, reader->GetOutput()->GetScalarRange()[1]);
+    vtkImageData* const image = reader->GetOutput();
+    std::string fault; // also if there are none
+    for (const auto& [label, voxels] : vtkImageToSimplexMeshFilter::CountLabels(
+           image, vtkDataObject::FIELD_ASSOCIATION_POINTS, "", fault))
+    {
+      labels.insert(label);
+    }
+    if (!fault.empty() && image->GetScalarRange()[1] > 0.0)
+    {
+      return {};
+    }
   }
-  return static_cast<std::int64_t>(highest);
+  return labels;
+}
+
+/** A label may be absent from frames, but not from all; shells have the same labels in all of them. */
+void PrepareForFrames(const Parameters& p, const io::LabelTable& names, const MeshingInput& input)
+{
+  const std::set<std::int64_t> labels = AllLabels(input.Labels);
+  const auto require = [&](const std::string& flag, const std::map<std::int64_t, double>& lengths)
+  {
+    for (const auto& [label, length] : lengths)
+    {
+      if (!labels.empty() && labels.count(label) == 0)
+      {
+        throw RunError("cannot repair '" + p.InputName() + "': " + flag +
+          ": no frame of the image has label " + std::to_string(label));
+      }
+    }
+  };
+  require("--min-thickness", input.Selection.Thicknesses);
+  require("--shell", input.Selection.Shells);
+  const std::int64_t named = names.Entries.empty() ? 0 : names.Entries.rbegin()->first;
+  const std::int64_t highest = labels.empty() ? 0 : *labels.rbegin();
+  input.Repair->SetFirstShellLabel(1 + std::max(named, highest));
 }
 
 /** Puts a filter behind the reader if one is needed. */
@@ -303,10 +335,9 @@ void RepairImage(const Parameters& p, MeshingInput& input)
   {
     return;
   }
-  if (input.Dimension() == 4 && !input.Selection.Shells.empty())
+  if (input.Dimension() == 4)
   {
-    const std::int64_t named = names.Entries.empty() ? 0 : names.Entries.rbegin()->first;
-    input.Repair->SetFirstShellLabel(1 + std::max(named, HighestLabel(input.Labels)));
+    PrepareForFrames(p, names, input);
   }
   input.Repair->SetInputConnection(input.Labels->GetOutputPort());
   CompleteOrExit(p,
@@ -340,9 +371,10 @@ void KeepShells(const MeshingInput& input, LabelSelection& selection)
   selection.Labels.assign(labels.begin(), labels.end());
 }
 
-/** What was done to the image, and what is suspicious about it. */
+/** What was done to the image, what could not be done, and what is suspicious about it. */
 struct RepairReport
 {
+  std::vector<std::string> Warnings;
   nlohmann::ordered_json Rows = nlohmann::ordered_json::array();
   std::string Text;
 };
@@ -366,6 +398,10 @@ RepairReport ReportRepair(const Parameters& p, const MeshingInput& input)
         row["time"] = time;
       }
       report.Rows.push_back(row);
+    }
+    for (const std::string& warning : WarningsOf(input.Repair.Get()))
+    {
+      report.Warnings.push_back(begin.str() + warning);
     }
     std::istringstream lines(input.Repair->GetReport());
     for (std::string line; std::getline(lines, line);)
@@ -425,7 +461,9 @@ void SaveImage(const Parameters& p)
   CommitFiles(files);
   if (input.Repair)
   {
-    std::cout << ReportRepair(p, input).Text << std::flush;
+    const RepairReport report = ReportRepair(p, input);
+    Warn(report.Warnings);
+    std::cout << report.Text << std::flush;
   }
 }
 
@@ -528,9 +566,10 @@ void Run(const Parameters& p)
     WriteReport(report, p.Statistics, files);
   }
   CommitFiles(files);
+  Warn(repair.Warnings);
   if (filter)
   {
-    Warn(WarningsOf(filter));
+    Warn(WarningsOf(filter.Get()));
   }
   std::cout << (filter ? Summarize(report) : SummarizeMesh(mesh.Mesh, dimension, report, times))
             << (p.Quality ? SummarizeMeasurement(report) : "") << repair.Text << std::flush;

@@ -44,6 +44,7 @@ public:
   std::map<std::int64_t, double> Shells;
   std::vector<RepairRow> Rows;
   std::map<std::int64_t, std::string> Names;
+  std::vector<std::string> Warnings;
   ///@{
   /** Of the progress: operations on one label or all, those done, and what was said. */
   std::size_t Steps = 0;
@@ -219,6 +220,8 @@ void FillTable(const std::vector<RepairRow>& rows, const Names& names, vtkTable*
   const auto largest = numbers("Largest", 1);
   const auto first = numbers("First", 3);
   const auto last = numbers("Last", 3);
+  const auto leftOut = numbers("LeftOut", 1);
+  const auto touching = numbers("TouchingFaces", 1);
   for (const RepairRow& row : rows)
   {
     what->InsertNextValue(row.What);
@@ -228,6 +231,8 @@ void FillTable(const std::vector<RepairRow>& rows, const Names& names, vtkTable*
     voxels->InsertNextValue(row.Voxels);
     places->InsertNextValue(row.Places);
     largest->InsertNextValue(row.Largest);
+    leftOut->InsertNextValue(row.LeftOut);
+    touching->InsertNextValue(row.TouchingFaces);
     for (std::size_t a = 0; a < 3; ++a)
     {
       first->InsertNextValue(row.First[a]);
@@ -239,20 +244,29 @@ void FillTable(const std::vector<RepairRow>& rows, const Names& names, vtkTable*
 /** Of one kind, in a report to read. The table has all of them. */
 constexpr std::ptrdiff_t MostLines = 20;
 
-std::string Line(const RepairRow& row, const std::string& name)
+std::string Named(std::int64_t label, const std::string& name)
 {
-  std::string text = row.What + ": label " + std::to_string(row.Label) +
-    (name.empty() ? "" : " (" + name + ")") + ": " + std::to_string(row.Voxels) +
-    (row.Voxels == 1 ? " voxel" : " voxels") +
-    (row.NewLabel == 0 ? "" : " became label " + std::to_string(row.NewLabel)) +
-    (row.IsAll ? ", all that it had" : "") + (row.IsCut ? ", cut at the border of the image" : "") +
-    (row.LeftOut == 0
-        ? ""
-        : ", " + std::to_string(row.LeftOut) + " more would cross labels that have to stay");
-  if (row.Places == 0)
+  return "label " + std::to_string(label) + (name.empty() ? "" : " (" + name + ")");
+}
+
+/** What the user would not expect; empty if there is nothing. @param thickness of a shell */
+std::string WarningOf(const RepairRow& row, const std::string& name, double thickness)
+{
+  if (row.TouchingFaces == 0)
   {
-    return text;
+    return "";
   }
+  return "{shell}: " + Named(row.Label, name) + " still touches what its shell keeps away, at " +
+    std::to_string(row.TouchingFaces) + " faces of voxels, because " +
+    (std::abs(thickness) < row.ClosedFrom
+        ? "the shell is thinner than half a voxel. From " + voxplex::NumberText(row.ClosedFrom) +
+          " on it is closed."
+        : "a gap of one voxel cannot hold two shells. Smaller voxels can.");
+}
+
+std::string PlaceOf(const RepairRow& row)
+{
+  std::string text;
   if (row.Places > 1 && row.Places != row.Voxels)
   {
     text += " in " + std::to_string(row.Places) + " places";
@@ -266,6 +280,19 @@ std::string Line(const RepairRow& row, const std::string& name)
       (row.First[a] == row.Last[a] ? "" : "-" + std::to_string(row.Last[a]));
   }
   return text + ")";
+}
+
+std::string Line(const RepairRow& row, const std::string& name)
+{
+  return row.What + ": " + Named(row.Label, name) + ": " + std::to_string(row.Voxels) +
+    (row.Voxels == 1 ? " voxel" : " voxels") +
+    (row.NewLabel == 0 ? "" : " became label " + std::to_string(row.NewLabel)) +
+    (row.IsAll ? ", all that it had" : "") + (row.IsCut ? ", cut at the border of the image" : "") +
+    (row.Places == 0 ? "" : PlaceOf(row)) +
+    (row.LeftOut == 0 ? ""
+                      : ", " + std::to_string(row.LeftOut) +
+          (row.What == "shell" ? " more have other labels"
+                               : " more would cross labels that have to stay"));
 }
 
 } // namespace
@@ -364,8 +391,28 @@ std::string vtkSegmentationRepair::ToJSON()
     {
       rows.back()["new_label"] = row.NewLabel;
     }
+    if (row.LeftOut != 0)
+    {
+      rows.back()["left_out"] = row.LeftOut;
+    }
+    if (row.TouchingFaces != 0)
+    {
+      rows.back()["touching_faces"] = row.TouchingFaces;
+    }
   }
   return rows.dump();
+}
+
+int vtkSegmentationRepair::GetNumberOfWarnings() const
+{
+  return static_cast<int>(this->Private->Warnings.size());
+}
+
+const std::string& vtkSegmentationRepair::GetWarning(int i) const
+{
+  static const std::string none;
+  const auto& warnings = this->Private->Warnings;
+  return i >= 0 && i < this->GetNumberOfWarnings() ? warnings[static_cast<std::size_t>(i)] : none;
 }
 
 int vtkSegmentationRepair::FillOutputPortInformation(int port, vtkInformation* info)
@@ -397,6 +444,7 @@ int vtkSegmentationRepair::RequestData(
 {
   this->ErrorMessage.clear();
   this->Private->Rows.clear();
+  this->Private->Warnings.clear();
   bool isAborted = false;
   this->ErrorMessage = voxplex::CatchFailure(
     [&]
@@ -411,8 +459,19 @@ int vtkSegmentationRepair::RequestData(
       }
     },
     "There is not enough memory to repair this image.", "The image cannot be repaired: ");
+  const auto words = static_cast<voxplex::UserInterface>(this->Vocabulary);
   if (this->ErrorMessage.empty() && !isAborted)
   {
+    for (const RepairRow& row : this->Private->Rows)
+    {
+      const std::string warning = WarningOf(
+        row, this->Private->NameOf(row.Label), voxplex::SizeOf(this->Private->Shells, row.Label));
+      if (!warning.empty())
+      {
+        this->Private->Warnings.push_back(voxplex::InTermsOf(words, warning));
+        vtkWarningMacro(<< this->Private->Warnings.back());
+      }
+    }
     return 1;
   }
   this->Private->Rows.clear();
@@ -422,8 +481,7 @@ int vtkSegmentationRepair::RequestData(
   {
     return 1;
   }
-  this->ErrorMessage =
-    voxplex::InTermsOf(static_cast<voxplex::UserInterface>(this->Vocabulary), this->ErrorMessage);
+  this->ErrorMessage = voxplex::InTermsOf(words, this->ErrorMessage);
   vtkErrorMacro(<< this->ErrorMessage);
   return 0;
 }

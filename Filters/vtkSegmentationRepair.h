@@ -11,7 +11,8 @@
  * the active scalars of points or cells. Frames of a series are repaired one by one. Output 0 is the image with its labels
  * changed, in a larger type if a new label needs it. Output 1 is a vtkTable, a row for each operation and label that it
  * changed: `What`, `Label`, `Name`, `Voxels` that were changed, `Places` (sets of them that faces connect), `Largest` (voxels
- * of the largest place), `First` and `Last`, the corners of its bounding box as indices of voxels from 0 on.
+ * of the largest place), `First` and `Last`, the corners of its bounding box as indices of voxels from 0 on, `LeftOut`
+ * (voxels that an operation wanted, and that have to stay as they are), `TouchingFaces` (of voxels, see Shell).
  *
  * @par FillHoles
  * A cavity is a set of background voxels, connected through faces, that does not touch the border of the image. Cavities
@@ -31,10 +32,14 @@
  * that has a smallest thickness itself, and no whole component.
  *
  * @par Shell
- * A positive thickness adds a new label around a label: background voxels whose centres are at most so far from the
- * surface of the label's nearest voxel, half a voxel from its centre. Of a negative one, the label's own voxels become the
- * new label, by their distance from other labels and background, also from those that the label encloses. New labels are FirstShellLabel and those that follow, by default from the
- * highest label, of voxels and in the field data array `LabelValues`, plus one. `LabelNames` gets "NAME shell".
+ * A positive thickness adds a new label around a label, in background. A voxel belongs to it if its centre is in an
+ * ellipsoid around the centre of a voxel of the label, whose half axes are the thickness and half a voxel. If the thickness is
+ * at least half the longest edge of a voxel, so do all voxels that share a face, an edge or a corner with the label, and the
+ * shell is closed. If it is less, a warning has the number of faces between the label and background. Where two shells meet, they share the gap in proportion to their thicknesses; a voxel
+ * in the middle is that of the smaller label. A negative thickness is that of a shell inside: voxels of the label itself
+ * become the new label, by their distance from other labels and background, also from those that the label encloses. New
+ * labels are FirstShellLabel and those that follow, by default from the highest label, of voxels and in the field data array
+ * `LabelValues`, plus one. `LabelNames` gets "NAME shell".
  *
  * @par CheckImage
  * Output 1 then has rows for what is suspicious after the repair, too; nothing is changed. What is: `components` beside the
@@ -141,11 +146,18 @@ public:
   vtkTable* GetReportTable();
   /** Output 1 in words, a line for each row, but of at most 20 labels for each kind. */
   std::string GetReport();
-  /** Output 1 as JSON: a list of objects with what, label, voxels, places, largest, first, last, and of shells new_label. */
+  /** Output 1 as JSON: a list of objects with what, label, voxels, places, largest, first, last, of shells new_label, and if they are
+   * not 0 left_out and touching_faces. */
   std::string ToJSON();
 
   /** Why the last execution failed; empty if it did not. */
   const std::string& GetErrorMessage() const { return this->ErrorMessage; }
+
+  ///@{
+  /** What the last execution could not do, as it was reported. */
+  int GetNumberOfWarnings() const;
+  const std::string& GetWarning(int i) const;
+  ///@}
 
 protected:
   vtkSegmentationRepair();

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 
@@ -612,94 +613,162 @@ std::vector<RepairRow> SegmentationRepair::Thicken(const std::map<std::int64_t, 
 
 //------------------------------------------------------------------------------------------------
 /**
- * How far a voxel's centre is from the surface of a voxel, which is taken for an ellipsoid: half a voxel from its centre
- * along each axis. Staircases then have no side that counts more.
+ * Calls visit(position, distance) for the voxels around a label that are in reach of a shell, or, if its thickness is
+ * negative, for those of the label. Distances are parts of the reach. Voxels that visit() makes part of the shell change
+ * nothing for others.
  */
-double SegmentationRepair::DistanceToSurface(const VoxelIndex& offset) const
+template <typename Visit>
+void SegmentationRepair::ForEachInReach(const Shell& shell, const Visit& visit) const
 {
-  double length2 = 0.0;
-  double voxels2 = 0.0;
+  if (shell.Of == 0)
+  {
+    return;
+  }
+  const VoxelIndex& n = this->Grid.Dimensions;
+  double diameter = 0.0; // of the image, or more
   for (std::size_t a = 0; a < 3; ++a)
   {
-    const auto voxels = static_cast<double>(offset[a]);
-    length2 += voxels * voxels * this->Spacing[a] * this->Spacing[a];
-    voxels2 += voxels * voxels;
+    diameter += static_cast<double>(n[a]) * this->Spacing[a];
   }
-  return std::sqrt(length2) * (1.0 - 0.5 / std::sqrt(voxels2));
-}
-
-/** Background around a label, or, of a negative thickness, voxels of the label. */
-SegmentationRepair::Positions SegmentationRepair::FindLayer(LabelId id, double thickness) const
-{
-  Positions layer;
-  const VoxelIndex& n = this->Grid.Dimensions;
-  const bool isInside = thickness < 0.0;
-  const double length = std::abs(thickness);
-  const VoxelBox box = this->BoxOf(id);
-  const double reach = length + *std::max_element(this->Spacing.begin(), this->Spacing.end()) / 2.0;
-  const VoxelBox region = isInside ? box : box.Grown(reach, this->Spacing, n);
-  region.ForEachBlock(reach, this->Spacing,
+  // The half axes of an ellipsoid: half a voxel and the thickness.
+  Point<3> reach;
+  Point<3> parts;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    reach[a] = this->Spacing[a] / 2.0 + std::min(std::abs(shell.Thickness), diameter);
+    parts[a] = this->Spacing[a] / reach[a];
+  }
+  const double margin = *std::max_element(reach.begin(), reach.end());
+  const auto isSite = [&](const VoxelIndex& voxel)
+  {
+    const LabelId own = this->Ids[Unsigned(this->PositionOf(voxel))];
+    return shell.Thickness > 0.0 ? own == shell.Of : own != shell.Of && own != shell.Id;
+  };
+  // Also at edges and corners, or the mesh has holes there.
+  const auto isBesideSite = [&](const VoxelIndex& voxel)
+  {
+    bool isBeside = false;
+    VoxelBox{ Plus(voxel, { -1, -1, -1 }), Plus(voxel, { 1, 1, 1 }) }.ForEachVoxel(
+      [&](const VoxelIndex& other)
+      {
+        bool isOne = this->IsInside(other) && isSite(other);
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          isOne = isOne && (other[a] == voxel[a] || parts[a] <= 1.0 + DistanceRounding);
+        }
+        isBeside = isBeside || isOne;
+      });
+    return isBeside;
+  };
+  const VoxelBox box = this->BoxOf(shell.Of);
+  const VoxelBox region = shell.Thickness > 0.0 ? box.Grown(margin, this->Spacing, n) : box;
+  region.ForEachBlock(margin, this->Spacing,
     [&](const VoxelBox& block)
     {
       this->Progress(static_cast<double>(block.First[2]) / static_cast<double>(n[2]));
-      bool isAny = false;
-      const auto isCandidate = [&](const VoxelIndex& voxel)
-      { return this->Ids[Unsigned(this->PositionOf(voxel))] == (isInside ? id : 0); };
-      block.ForEachVoxel([&](const VoxelIndex& voxel) { isAny = isAny || isCandidate(voxel); });
-      if (!isAny)
-      {
-        return;
-      }
-      const VoxelBox around = block.Grown(reach, this->Spacing, n);
+      const VoxelBox around = block.Grown(margin, this->Spacing, n);
       const VoxelIndex size = around.Size();
       BitMask<3> sites(size);
       around.ForEachVoxel(
         [&](const VoxelIndex& voxel)
         {
-          if ((this->Ids[Unsigned(this->PositionOf(voxel))] == id) != isInside)
+          if (isSite(voxel))
           {
             sites.Set(Minus(voxel, around.First));
           }
         });
-      const FeatureTransform<3> nearest(sites, this->Spacing, { 1, 1, 1 }, this->Threads);
+      const FeatureTransform<3> nearest(sites, parts, { 1, 1, 1 }, this->Threads);
       block.ForEachVoxel(
         [&](const VoxelIndex& voxel)
         {
           const VoxelIndex at = Minus(voxel, around.First);
-          const std::uint32_t site =
-            nearest.Site(Unsigned(at[0] + size[0] * (at[1] + size[1] * at[2])));
-          if (site != FeatureTransform<3>::NoSite && isCandidate(voxel) &&
-            this->DistanceToSurface(Minus(at, nearest.IndexOf(site))) <=
-              length * (1.0 + DistanceRounding))
+          const float distance =
+            nearest.Distance(Unsigned(at[0] + size[0] * (at[1] + size[1] * at[2])));
+          const bool isInReach = distance <= 1.0 + DistanceRounding;
+          if (distance > 0.0F && (isInReach || (distance < 2.0 && isBesideSite(voxel))))
           {
-            layer.push_back(this->PositionOf(voxel));
+            visit(this->PositionOf(voxel), distance);
           }
         });
     });
-  return layer;
+}
+
+/** What became of a shell. @param distances see MakeShells() */
+RepairRow SegmentationRepair::DescribeShell(const Shell& shell, const std::vector<float>& distances)
+{
+  const Positions layer =
+    this->FindVoxels([&shell](const VoxelIndex&, LabelId own) { return own == shell.Id; });
+  RepairRow row = this->Change("shell", shell.Label, layer, shell.Id);
+  row.NewLabel = this->Values[shell.Id];
+  row.IsAll = shell.Of != 0 && this->BoxOf(shell.Of).Last[0] < 0;
+  row.IsCut = shell.Thickness > 0.0 &&
+    std::any_of(layer.begin(), layer.end(),
+      [this](std::int64_t voxel) { return this->IsAtBorder(this->IndexOf(voxel)); });
+  row.LeftOut = shell.InReach - std::ssize(layer);
+  row.ClosedFrom = *std::max_element(this->Spacing.begin(), this->Spacing.end()) / 2.0;
+  if (shell.Of == 0)
+  {
+    return row;
+  }
+  const auto isKeptAway = [&](std::size_t position)
+  {
+    const LabelId own = this->Ids[position];
+    return own != shell.Id && own != shell.Of &&
+      (shell.Thickness < 0.0 || own == 0 || distances[position] > 0.0F);
+  };
+  this->BoxOf(shell.Of).ForEachVoxel(
+    [&](const VoxelIndex& voxel)
+    {
+      const std::int64_t position = this->PositionOf(voxel);
+      if (this->Ids[Unsigned(position)] == shell.Of)
+      {
+        this->ForEachNeighbour(position,
+          [&](std::int64_t other) { row.TouchingFaces += isKeptAway(Unsigned(other)) ? 1 : 0; });
+      }
+    });
+  return row;
 }
 
 std::vector<RepairRow> SegmentationRepair::MakeShells(
   const std::map<std::int64_t, double>& thicknesses, std::int64_t first)
 {
-  std::vector<RepairRow> rows;
+  std::vector<Shell> shells;
   for (const auto& [label, thickness] : thicknesses)
   {
-    const LabelId id = this->IdOf(label);
-    const auto shell = static_cast<LabelId>(this->Values.size());
-    const std::int64_t added = first + std::ssize(rows);
+    const std::int64_t added = first + std::ssize(shells);
     if (this->IdOf(added) != 0)
     {
       throw InputError("{shell}: the new label " + std::to_string(added) + " is in the image.");
     }
-    this->Values.push_back(added);
-    const Positions layer = id == 0 ? Positions() : this->FindLayer(id, thickness);
-    rows.push_back(this->Change("shell", label, layer, shell));
-    rows.back().NewLabel = this->Values.back();
-    rows.back().IsAll = id != 0 && this->BoxOf(id).Last[0] < 0;
-    rows.back().IsCut = thickness > 0.0 &&
-      std::any_of(layer.begin(), layer.end(),
-        [this](std::int64_t voxel) { return this->IsAtBorder(this->IndexOf(voxel)); });
+    const auto id = static_cast<LabelId>(this->Values.size() + shells.size());
+    shells.push_back({ label, thickness, this->IdOf(label), id });
+  }
+  // Of voxels in shells around labels: these share a gap in proportion to their thicknesses.
+  std::vector<float> distances(shells.empty() ? 0 : this->Ids.size(), 0.0F);
+  for (Shell& shell : shells)
+  {
+    this->Values.push_back(first++);
+    this->ForEachInReach(shell,
+      [&](std::int64_t position, float distance)
+      {
+        ++shell.InReach;
+        LabelId& own = this->Ids[Unsigned(position)];
+        float& nearest = distances[Unsigned(position)];
+        if (shell.Thickness < 0.0)
+        {
+          own = shell.Id;
+        }
+        else if (own == 0 || distance < nearest * (1.0 - DistanceRounding))
+        {
+          own = shell.Id;
+          nearest = distance;
+        }
+      });
+  }
+  std::vector<RepairRow> rows;
+  for (const Shell& shell : shells)
+  {
+    rows.push_back(this->DescribeShell(shell, distances));
   }
   return rows;
 }

@@ -39,6 +39,8 @@ struct RepairRow
   bool IsAll = false;        ///< whether the shell took all of the label
   bool IsCut = false;        ///< whether a shell around the label reaches the border of the image
   std::int64_t LeftOut = 0;  ///< voxels of a thickness that others keep
+  std::int64_t TouchingFaces = 0; ///< between a label and what its shell should keep from it
+  double ClosedFrom = 0.0;        ///< the thickness from which on voxels can hold a closed shell
 };
 
 /** Called with what is done of an operation, 0 to 1; throws Cancelled to end it. */
@@ -69,7 +71,8 @@ public:
   std::vector<RepairRow> Thicken(const std::map<std::int64_t, double>& lengths);
 
   /**
-   * A layer around labels, or, of a negative thickness, inside of labels, as new labels first, first + 1, ...
+   * A layer around labels, or, of a negative thickness, inside of labels, as new labels first, first + 1, ... Where layers
+   * around labels meet, they share the gap in proportion to their thicknesses.
    * @throws InputError if the image has one of these
    */
   std::vector<RepairRow> MakeShells(
@@ -97,6 +100,15 @@ private:
     std::vector<Run> Runs;
     std::int64_t Voxels = 0;
     VoxelBox Box = VoxelBox::Empty();
+  };
+
+  struct Shell
+  {
+    std::int64_t Label;
+    double Thickness;
+    LabelId Of; ///< 0 if the image lacks the label
+    LabelId Id;
+    std::int64_t InReach = 0; ///< voxels that it would have if there were no other labels
   };
 
   std::int64_t PositionOf(const VoxelIndex& voxel) const;
@@ -128,8 +140,9 @@ private:
   Positions FindThickening(LabelId id, double length, const std::vector<bool>& isKept) const;
   void LeaveComponents(Positions& taken) const;
   void LeaveUnconnected(Positions& taken, LabelId id) const;
-  double DistanceToSurface(const VoxelIndex& offset) const;
-  Positions FindLayer(LabelId id, double thickness) const;
+  template <typename Visit>
+  void ForEachInReach(const Shell& shell, const Visit& visit) const;
+  RepairRow DescribeShell(const Shell& shell, const std::vector<float>& distances);
   RepairRow Change(
     const std::string& what, std::int64_t label, const Positions& voxels, LabelId id);
   void AddComponents(std::vector<RepairRow>& rows) const;

@@ -120,6 +120,32 @@ class Program(ProgramTestCase):
         clean = voxplex.read_segmentation(self.folder / "clean.nrrd").voxels
         self.assertEqual((int(clean[1].max()), int(clean[2].max())), (0, int(frames.max()) + 1))
 
+    def test_told(self):
+        """What a repair could not do: also by frame, in the statistics, and in terms of Python."""
+        frames = images.moving_balls(frames=2, size=14, radius=4.0)
+        for image, begin in ((frames[0], ""), (frames, "time 1: ")):
+            images.write_nrrd(self.folder / "dirty.nrrd", image)
+            for output in ("clean.nrrd", "mesh.vtu"):
+                done = self.call("--input", "dirty.nrrd", "--shell", "6=0.3", *(
+                    ("--save-image", output) if output == "clean.nrrd" else ("--delta", 2, "--output", output, "--stats", "run.json")))
+                self.assertEqual(done.returncode, 0)
+                self.assertRegex(done.stderr, rf"(?m)^voxplex: warning: {begin}--shell: label 6 still touches .* "
+                                              r"at \d+ faces .* From 0\.5 on it is closed\.$")
+                self.assertNotIn("shell", self.call("--input", "dirty.nrrd", "--shell", "6=0.5", "--save-image", "out.nrrd").stderr)
+            self.assertGreater(json.loads((self.folder / "run.json").read_text())["repair"][-1]["touching_faces"], 100)
+        with self.assertWarnsRegex(voxplex.MeshingWarning, "^shells: label 6 still touches"):
+            voxplex.mesh(frames[0], delta=2, shells={6: 0.3})
+
+    def test_label_of_no_frame(self):
+        frames = images.moving_balls(size=12, radius=3.0)
+        frames[1] = 0
+        images.write_nrrd(self.folder / "dirty.nrrd", frames)
+        for flag in ("--shell", "--min-thickness"):
+            self.assert_refused(1, f"cannot repair 'dirty.nrrd': {flag}: no frame of the image has label 5", "--input", "dirty.nrrd",
+                                flag, "5=1", "--save-image", "clean.nrrd")
+        with self.assertRaisesRegex(voxplex.MeshingError, "shells: no frame of the image has label 5"):
+            voxplex.mesh(frames, times=range(5), delta=2, shells={5: 1})
+
     def test_refused(self):
         for option, arguments in (("--labels", ("--labels", "Nonsense", "--save-image", "out.nrrd")),
                                   ("--min-component-volume", ("--min-component-volume", 9, "--save-image", "out.nrrd")),
@@ -155,6 +181,15 @@ class Python(ProgramTestCase):
         self.assertEqual(mesh.statistics["labels"]["8"]["name"], "Ball shell")
         self.assertAlmostEqual(mesh.statistics["labels"]["3"]["volume"] / numpy.count_nonzero(repaired == 3), 1, delta=0.02)
         self.assertNotIn("repair", voxplex.mesh(image, delta=3).statistics)
+
+    def test_closed_shells(self):
+        """In the mesh, too, with thick slices and at corners of voxels."""
+        for spacing, size in (((0.5, 0.5, 3.0), (12, 56, 56)), ((3.0, 0.5, 0.5), (56, 56, 12)), ((1.0, 1.0, 1.0), (28, 28, 28))):
+            where = (numpy.indices(size).T - (numpy.array(size) - 1) / 2) * spacing[::-1]
+            image = voxplex.Image((numpy.linalg.norm(where.T, axis=0) < 10).astype(numpy.uint8), spacing=spacing)
+            for thickness in (2.0, -2.0):
+                pairs = voxplex.mesh(image, delta=1.5, shells={1: thickness}).interfaces.labels
+                self.assertEqual({tuple(pair) for pair in numpy.sort(pairs, axis=1)}, {(0, 2), (1, 2)})
 
     def test_name_of_a_label_that_is_absent(self):
         labels = phantom()[0]

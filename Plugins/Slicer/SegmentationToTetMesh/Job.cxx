@@ -117,6 +117,10 @@ vtkSmartPointer<vtkSegmentationRepair> Repair(
     throw cli::RunError(
       "cannot repair '" + arguments.Text("inputLabels") + "': " + filter->GetErrorMessage());
   }
+  for (const std::string& warning : cli::WarningsOf(filter.Get()))
+  {
+    Warn(warning);
+  }
   return filter;
 }
 

@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """vtkSegmentationRepair: phantoms whose answers are known, and distances of SciPy."""
+import itertools
 import json
 import unittest
 
@@ -37,13 +38,21 @@ def array_of(image, like):
     return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(like.shape)
 
 
-def distance_to_surface(sites, spacing):
-    """Of each voxel's centre from the surface of the nearest site, half a voxel from its centre."""
-    lengths = numpy.array(spacing[::-1])[:, None, None, None]
-    nearest = ndimage.distance_transform_edt(~sites, sampling=spacing[::-1], return_distances=False, return_indices=True)
-    offsets = numpy.indices(sites.shape) - nearest
-    with numpy.errstate(divide="ignore", invalid="ignore"):
-        return numpy.linalg.norm(offsets * lengths, axis=0) * (1 - 0.5 / numpy.linalg.norm(offsets, axis=0))
+def near(sites, spacing, thickness):
+    """What a shell of the sites has: an ellipsoid around each, and all voxels beside them."""
+    lengths = numpy.array(spacing[::-1])
+    half = thickness + lengths / 2
+    reach = (half / lengths).astype(int)
+    offsets = numpy.moveaxis(numpy.indices(2 * reach + 1), 0, -1) - reach
+    inside = numpy.linalg.norm(offsets * lengths / half, axis=-1) <= 1.0001
+    return ndimage.binary_dilation(sites, inside | (abs(offsets).max(axis=-1) < 2)) & ~sites
+
+
+def faces(one, other):
+    """How many faces of voxels two masks have in common."""
+    return sum(numpy.count_nonzero(a[1:] & b[:-1]) for axis in range(3)
+               for a, b in ((numpy.moveaxis(one, axis, 0), numpy.moveaxis(other, axis, 0)),
+                            (numpy.moveaxis(other, axis, 0), numpy.moveaxis(one, axis, 0))))
 
 
 class Repair(unittest.TestCase):
@@ -254,25 +263,77 @@ class Shells(Repair):
         labels[25:][labels[25:] == 1] = 4
         for spacing in ((1.0, 1.0, 1.0), (0.7, 1.1, 2.3)):
             place = {"spacing": spacing}
-            away = distance_to_surface(labels == 1, spacing)
-            inside = distance_to_surface(labels != 1, spacing)
             found, rows = self.repaired(labels, place, Shell={1: 4.0})
-            self.check_same(found, numpy.where((labels == 0) & (away <= 4.0), 5, labels))
+            self.check_same(found, numpy.where((labels == 0) & near(labels == 1, spacing, 4.0), 5, labels))
             self.assertEqual((rows[0]["what"], rows[0]["label"], rows[0]["new_label"]), ("shell", 1, 5))
+            self.assertEqual(rows[0]["left_out"], numpy.count_nonzero((labels == 4) & near(labels == 1, spacing, 4.0)))
             found, _ = self.repaired(labels, place, Shell={1: -3.0})
-            self.check_same(found, numpy.where((labels == 1) & (inside <= 3.0), 5, labels))
+            self.check_same(found, numpy.where((labels == 1) & near(labels != 1, spacing, 3.0), 5, labels))
 
     def test_thickness(self):
-        """Around a ball as asked, or up to a third of a voxel more, and closed, also with thick slices."""
-        for spacing in ((1.0, 1.0, 1.0), (0.7, 0.7, 0.7), (0.7, 0.7, 2.5)):
-            size = numpy.array([round(30 / length) for length in spacing[::-1]])
+        """Closed if at least half a voxel thick, and up to half a voxel thicker than asked, whatever the order of axes."""
+        for spacing, thickness in (((1.0, 1.0, 1.0), 2.0), ((0.7, 0.7, 0.7), 2.0), ((0.5, 0.5, 3.0), 2.0), ((0.5, 0.5, 3.0), 1.5),
+                                   ((0.7, 0.7, 2.5), 2.0), ((0.4, 1.0, 2.5), 3.0), ((1.0, 3.0, 3.0), 2.0)):
+            size = numpy.array([round(34 / length) for length in spacing[::-1]])
             where = (numpy.indices(size).T - (size - 1) / 2).T * numpy.array(spacing[::-1])[:, None, None, None]
             labels = (numpy.linalg.norm(where, axis=0) <= 10.0).astype(numpy.uint8)
-            found, rows = self.repaired(labels, {"spacing": spacing}, Shell={1: 2.0})
-            volume = numpy.array([(found == 1).sum(), (found > 0).sum()]) * numpy.prod(spacing)
+            first = None
+            for axes in itertools.permutations(range(3)):
+                turned = labels.transpose(axes)
+                lengths = [spacing[2 - axis] for axis in axes][::-1]
+                place = {"spacing": lengths, "direction": [[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]]}
+                found, _ = self.repaired(turned, place, Shell={1: thickness})
+                self.assertFalse((ndimage.binary_dilation(found == 1, numpy.ones((3, 3, 3))) & (found == 0)).any(), (spacing, axes))
+                first = found if first is None else first
+                self.check_same(found, first.transpose(axes))
+                found, _ = self.repaired(turned, place, Shell={1: -thickness})
+                self.assertFalse((ndimage.binary_dilation(found == 1, numpy.ones((3, 3, 3))) & (found == 0)).any(), (spacing, axes))
+            volume = numpy.array([(first == 1).sum(), (first > 0).sum()]) * numpy.prod(spacing)
             inner, outer = numpy.cbrt(volume * 3 / 4 / numpy.pi)
-            self.assertAlmostEqual(outer - inner, 2.17, delta=0.17)
-            self.assertFalse(((found[1:] == 0) & (found[:-1] == 1)).any(), "closed")
+            self.assertGreater(outer - inner, thickness)
+            self.assertLess(outer - inner - thickness, max(spacing) / 2)
+
+    def test_thinner_than_voxels(self):
+        """What the label still touches is told: background, and inside of a shell all others."""
+        labels = ball(9, 30)
+        labels[:, :, 20:][labels[:, :, 20:] == 1] = 2
+        for axis, spacing in enumerate(((1.0, 1.0, 4.0), (1.0, 4.0, 1.0), (4.0, 1.0, 1.0))):
+            for thickness in (1.9, -1.9):
+                repair = filter_of(voxplex.Image(labels, spacing=spacing).to_vtk(), Shell={1: thickness})
+                repair.Update()
+                found = array_of(repair.GetOutput(), labels)
+                touching = faces(found == 1, found == 0) + (faces(found == 1, found == 2) if thickness < 0 else 0)
+                self.assertGreater(touching, 0, axis)
+                self.assertEqual(json.loads(repair.ToJSON())[0]["touching_faces"], touching)
+                self.assertEqual(repair.GetNumberOfWarnings(), 1)
+                self.assertRegex(repair.GetWarning(0), f"label 1 still touches .* at {touching} faces .* From 2 on it is closed")
+                self.assertEqual(repair.GetReportTable().GetColumnByName("TouchingFaces").GetValue(0), touching)
+                repair = filter_of(voxplex.Image(labels, spacing=spacing).to_vtk(), Shell={1: thickness / 1.9 * 2})
+                repair.Update()
+                self.assertEqual(repair.GetNumberOfWarnings(), 0)
+
+    def test_shared_gap(self):
+        """Two shells share what is between their labels by their thicknesses; what each lacks is told."""
+        for gap, lengths, parts in ((6, (4, 4), (3, 3)), (8, (4, 4), (4, 4)), (7, (4, 4), (4, 3)), (6, (2, 4), (2, 4)), (6, (8, 4), (4, 2)),
+                                    (6, (1e300, 1e300), (3, 3))):
+            labels = numpy.zeros((14, 14, 40), dtype=numpy.uint8)
+            labels[4:-4, 4:-4, 10:12] = 1
+            labels[4:-4, 4:-4, 12 + gap:14 + gap] = 2
+            found, rows = self.repaired(labels, Shell=dict(zip((1, 2), lengths)))
+            self.assertEqual(tuple(numpy.count_nonzero(found[7, 7, 12:12 + gap] == shell) for shell in (3, 4)), parts)
+            if gap == 6 and lengths == (4, 4):
+                self.check_same(found[:, :, :30], numpy.array([0, 2, 1, 4, 3])[found[:, :, 29::-1]])
+            for row, length in zip(rows, lengths):
+                alone = self.repaired(labels, Shell={row["label"]: length})[1][0]
+                self.assertEqual(row["voxels"] + row.get("left_out", 0), alone["voxels"] + alone.get("left_out", 0))
+        labels = numpy.zeros((12, 12, 12), dtype=numpy.uint8)
+        labels[4:-4, 4:-4, 4] = 1
+        labels[4:-4, 4:-4, 6] = 2
+        repair = filter_of(voxplex.Image(labels).to_vtk(), Shell={1: 2, 2: 2})
+        repair.Update()
+        self.assertEqual(repair.GetNumberOfWarnings(), 1)
+        self.assertRegex(repair.GetWarning(0), "label 2 still touches .* at 16 faces .* gap")
+        self.assertIn(" more have other labels", repair.GetReport())
 
     def test_types_and_numbers(self):
         for kind, label in ((numpy.float32, 2 ** 24), (numpy.float64, 2 ** 53), (numpy.int64, 2 ** 62)):
