@@ -20,10 +20,11 @@
  * meshing filters' MinimumComponentVolume is for these.
  *
  * @par RemoveSpikes
- * What opening takes from a label, if it hangs on one side only. Opening is by squares of 2 x 2 voxels in the three planes:
- * it takes strings that are one voxel wide, and no sheet. What connects two parts of a label stays, and so does a component
- * that opening would take as a whole. The voxels get the label of most faces around them, or become background. Voxels
- * beyond the border count as those of the label.
+ * What opening takes from a label, if it touches the rest at one place. Opening is by squares of 2 x 2 voxels in the three
+ * planes: it takes strings that are one voxel wide, and no sheet. What touches the rest at several places (arches, and what
+ * connects two parts of a label) stays but for its loose ends, and so does a component that opening would take as a whole.
+ * The voxels get the label of most faces around them, or become background. Voxels beyond the border count as those of the
+ * label, but a string that ends there is a spike.
  *
  * @par MinimumThickness
  * Where a label is thinner than a length, it is thickened to at least that, on both sides; oblique sheets to half a voxel

@@ -105,18 +105,46 @@ std::vector<SegmentationRepair::Positions> SegmentationRepair::FindNecks() const
   {
     isMiddle[Unsigned(position)] = true;
   }
-  return this->PiecesBeside(this->FindVoxels(
-                              [&](const VoxelIndex& voxel, LabelId id)
-                              {
-                                return !isAnyOf(voxel,
-                                  [&](const VoxelIndex& other)
-                                  {
-                                    return this->IsInside(other) &&
-                                      isMiddle[Unsigned(this->PositionOf(other))] &&
-                                      this->Has(other, id);
-                                  });
-                              }),
-    true);
+  std::vector<LabelId> rest = this->Ids;
+  const Positions taken = this->FindVoxels(
+    [&](const VoxelIndex& voxel, LabelId id)
+    {
+      return !isAnyOf(voxel,
+        [&](const VoxelIndex& other)
+        {
+          return this->IsInside(other) && isMiddle[Unsigned(this->PositionOf(other))] &&
+            this->Has(other, id);
+        });
+    });
+  for (const std::int64_t voxel : taken)
+  {
+    rest[Unsigned(voxel)] = 0;
+  }
+  if (taken.empty() || std::all_of(rest.begin(), rest.end(), [](LabelId id) { return id == 0; }))
+  {
+    return {};
+  }
+  const LabelImage<3> image = this->ImageOf(rest);
+  const Components<3> parts(image, this->Threads);
+  std::vector<Positions> necks = this->PiecesOf(taken);
+  std::erase_if(necks,
+    [&](const Positions& piece)
+    {
+      std::set<std::uint32_t> beside;
+      for (const std::int64_t voxel : piece)
+      {
+        this->ForEachNeighbour(voxel,
+          [&](std::int64_t other)
+          {
+            if (rest[Unsigned(other)] == this->Ids[Unsigned(voxel)])
+            {
+              beside.insert(parts.At(Minus(this->IndexOf(other), image.CropOrigin())));
+            }
+          });
+      }
+      return beside.size() < 2;
+    });
+  return necks;
 }
 
 /** Background thinner than two voxels, at each label beside it, unless it is a cavity. */

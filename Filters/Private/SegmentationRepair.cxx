@@ -309,61 +309,61 @@ std::vector<SegmentationRepair::Positions> SegmentationRepair::PiecesOf(
   return pieces;
 }
 
+/**
+ * Strings of what opening takes that touch the rest of their label at one place. No voxel of a string is in a square of
+ * voxels, so each face is a place. Of strings with several, the loose ends.
+ */
 std::vector<SegmentationRepair::Positions> SegmentationRepair::FindSpikes() const
 {
-  return this->PiecesBeside(this->FindVoxels(
-                              [this](const VoxelIndex& voxel, LabelId id)
-                              {
-                                return !this->IsInBlock(voxel, id, 0b011) &&
-                                  !this->IsInBlock(voxel, id, 0b101) &&
-                                  !this->IsInBlock(voxel, id, 0b110);
-                              }),
-    false);
-}
-
-/**
- * Pieces of what opening takes that hang on one connected part of the rest, or the bridges between several parts. A
- * piece without is a component.
- */
-std::vector<SegmentationRepair::Positions> SegmentationRepair::PiecesBeside(
-  const Positions& taken, bool bridges) const
-{
-  std::vector<LabelId> rest = this->Ids;
+  const Positions taken = this->FindVoxels(
+    [this](const VoxelIndex& voxel, LabelId id)
+    {
+      return !this->IsInBlock(voxel, id, 0b011) && !this->IsInBlock(voxel, id, 0b101) &&
+        !this->IsInBlock(voxel, id, 0b110);
+    });
+  std::vector<bool> isTaken(this->Ids.size(), false);
   for (const std::int64_t voxel : taken)
   {
-    rest[Unsigned(voxel)] = 0;
+    isTaken[Unsigned(voxel)] = true;
   }
-  if (taken.empty() || std::all_of(rest.begin(), rest.end(), [](LabelId id) { return id == 0; }))
+  const auto neighboursOf = [this](std::int64_t voxel, const std::vector<bool>& without)
   {
-    return {};
-  }
-  const LabelImage<3> image = this->ImageOf(rest);
-  const Components<3> parts(image, this->Threads);
-  std::vector<Positions> found;
-  for (Positions& piece : this->PiecesOf(taken))
+    Positions found;
+    this->ForEachNeighbour(voxel,
+      [&](std::int64_t other)
+      {
+        if (this->Ids[Unsigned(other)] == this->Ids[Unsigned(voxel)] && !without[Unsigned(other)])
+        {
+          found.push_back(other);
+        }
+      });
+    return found;
+  };
+  std::vector<bool> isSpike(this->Ids.size(), false);
+  for (const Positions& piece : this->PiecesOf(taken))
   {
-    std::uint32_t part = Components<3>::None;
-    bool isBridge = false;
+    std::size_t places = 0;
     for (const std::int64_t voxel : piece)
     {
-      this->ForEachNeighbour(voxel,
-        [&](std::int64_t neighbour)
-        {
-          if (rest[Unsigned(neighbour)] != this->Ids[Unsigned(voxel)])
-          {
-            return;
-          }
-          const std::uint32_t other = parts.At(Minus(this->IndexOf(neighbour), image.CropOrigin()));
-          isBridge = isBridge || (part != Components<3>::None && part != other);
-          part = other;
-        });
+      places += neighboursOf(voxel, isTaken).size();
     }
-    if (part != Components<3>::None && isBridge == bridges)
+    for (const std::int64_t voxel : places > 0 ? piece : Positions())
     {
-      found.push_back(std::move(piece));
+      isSpike[Unsigned(voxel)] = isSpike[Unsigned(voxel)] || places == 1;
+      Positions next{ voxel };
+      while (
+        next.size() == 1 && isTaken[Unsigned(next.front())] && !isSpike[Unsigned(next.front())])
+      {
+        const std::int64_t end = next.front();
+        next = neighboursOf(end, isSpike);
+        isSpike[Unsigned(end)] = next.size() == 1;
+      }
     }
   }
-  return found;
+  Positions spikes;
+  std::copy_if(taken.begin(), taken.end(), std::back_inserter(spikes),
+    [&](std::int64_t voxel) { return isSpike[Unsigned(voxel)]; });
+  return this->PiecesOf(spikes);
 }
 
 /** Of the faces to other labels, background among them; nothing if all of these are removed. */

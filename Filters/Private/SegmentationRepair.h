@@ -134,7 +134,6 @@ private:
   std::vector<Positions> PiecesOf(const Positions& voxels, LabelId ofBackground = 0) const;
   std::vector<Positions> FindSpikes() const;
   std::vector<Positions> FindNecks() const;
-  std::vector<Positions> PiecesBeside(const Positions& taken, bool bridges) const;
   std::optional<LabelId> MostFrequentAround(
     std::int64_t position, const std::vector<bool>& removed) const;
   Positions FindThickening(LabelId id, double length, const std::vector<bool>& isKept) const;

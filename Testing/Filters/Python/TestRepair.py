@@ -128,6 +128,38 @@ class Spikes(Repair):
         self.check_same(found, labels)
         self.assertEqual(rows, [])
 
+    def test_arches(self):
+        """What touches the rest at two places stays: also at one voxel; what hangs on it does not, and strings to the border."""
+        def string(*voxels):
+            added = labels.copy()
+            for voxel in voxels:
+                added[voxel] = 1
+            return added
+
+        labels = numpy.zeros((15, 15, 15), dtype=numpy.uint8)
+        labels[4:10, 4:10, 4:10] = 1
+        arch = [(k, 5, i) for k, i in ((10, 5), (11, 5), (12, 5), (12, 6), (12, 7), (12, 8), (11, 8), (10, 8))]
+        edge = [(k, 6, i) for k, i in ((10, 9), (11, 9), (11, 10), (11, 11), (10, 11), (9, 11), (9, 10))]
+        border = [(k, 6, 6) for k in range(10, 15)]
+        ring = [(10, 5, 5), (11, 5, 5), *((12, j, i) for j in range(4, 7) for i in range(5, 8) if (j, i) != (5, 6))]
+        for axes in itertools.permutations(range(3)):
+            for flip in (1, -1):
+                def turned(image):
+                    return image.transpose(axes)[::flip, ::flip, ::flip].copy()
+
+                for stays in (arch, edge, arch + edge):
+                    found, rows = self.repaired(turned(string(*stays)), RemoveSpikes=True)
+                    self.check_same(found, turned(string(*stays)))
+                    self.assertEqual(rows, [])
+                twigs = [(13, 5, 6), (10, 5, 10), (11, 5, 9)]  # the last two: a component, and on the arch
+                found, rows = self.repaired(turned(string(*arch, *twigs)), RemoveSpikes=True)
+                self.check_same(found, turned(string(*arch, twigs[1])))
+                self.assertEqual((rows[0]["voxels"], rows[0]["places"]), (2, 2))
+                for hangs in (arch[:-1], edge[:-1], border, ring):
+                    self.check_same(self.repaired(turned(string(*hangs)), RemoveSpikes=True)[0], turned(labels))
+                    self.assertEqual(self.repaired(turned(string(*hangs)), CheckImage=True)[1][0]["what"], "spikes")
+        self.assertNotIn("spikes", [row["what"] for row in self.repaired(string(*arch), CheckImage=True)[1]])
+
     def test_diagonal_sheet(self):
         i, j, k = numpy.mgrid[:30, :30, :30]
         labels = (((i - k) // 2 == 0) & (j > 3) & (j < 26)).astype(numpy.uint8)
