@@ -62,8 +62,8 @@ public:
   ~Slicer();
 
   /**
-   * Writes the slice at a time: a .vtu file of tetrahedra, wedges and pyramids with the cell array
-   * Label, and the time as field data TimeValue.
+   * Writes the slice at a time: a .vtu file of tetrahedra with the cell array Label, and the time as
+   * field data TimeValue.
    *
    * @throws RunError
    */

@@ -143,9 +143,11 @@ void SetGeometry(const voxplex::TimeSlice& slice, vtkUnstructuredGrid* output)
   output->SetPoints(points);
 
   vtkNew<vtkUnsignedCharArray> types;
-  types->SetNumberOfValues(static_cast<vtkIdType>(slice.Types.size()));
-  std::transform(slice.Types.begin(), slice.Types.end(), types->GetPointer(0),
-    [](voxplex::SliceCellType type) { return static_cast<unsigned char>(type); });
+  types->SetNumberOfValues(static_cast<vtkIdType>(slice.Sources.size()));
+  std::transform(slice.Offsets.begin(), slice.Offsets.end() - 1, slice.Offsets.begin() + 1,
+    types->GetPointer(0),
+    [](long long first, long long last)
+    { return static_cast<unsigned char>(last - first == 4 ? VTK_TETRA : VTK_TRIANGLE); });
   vtkNew<vtkCellArray> cells;
   cells->SetData(CopyIds(slice.Offsets), CopyIds(slice.Connectivity));
   output->SetCells(types, cells);

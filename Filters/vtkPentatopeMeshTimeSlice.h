@@ -6,7 +6,7 @@
  *
  * The filter turns a mesh of space-time into a moving mesh of space. A slice can be cut at any
  * time, not only at the times of the frames that the mesh was made from, and each slice is
- * conforming. Boundary tetrahedra become polygons.
+ * conforming. Boundary tetrahedra become triangles.
  *
  * @par Input
  * vtkUnstructuredGrid with any of these cells:
@@ -19,15 +19,15 @@
  * times and cells with 64-bit ids are read in place.
  *
  * @par Output
- * vtkUnstructuredGrid, points in double precision. A pentatope becomes a `VTK_TETRA` or a
- * `VTK_WEDGE` or, if one of its points lies at the time of the slice, a `VTK_PYRAMID`. A
- * tetrahedron becomes a `VTK_TRIANGLE` or a `VTK_QUAD`. All faces are plane.
- * - Conforming: each point occurs once, and cells share whole faces.
- * - Pentatopes with det(p_i - p_0, t_i - t_0; i = 1 ... 4) > 0 become cells of positive volume in
- *   VTK's order of points. If the tetrahedra are those of vtkImageToPentatopeMeshFilter, the
- *   right-hand normals of polygons point out of the region of the first label of `Labels`.
- * - Each cell of the input gives at most one cell of the output, in the same order. Cell data is
- *   copied (`Label`, `Labels`).
+ * vtkUnstructuredGrid, points in double precision. A pentatope becomes one to three `VTK_TETRA`, a
+ * tetrahedron one or two `VTK_TRIANGLE`; none if only its corners or faces lie at the time.
+ * - Conforming: each point occurs once, and cells share whole faces. The triangles of a boundary
+ *   by vtkImageToPentatopeMeshFilter are faces of the tetrahedra of its mesh.
+ * - Pentatopes with det(p_i - p_0, t_i - t_0; i = 1 ... 4) > 0 become tetrahedra of positive
+ *   volume. If the input's tetrahedra are those of vtkImageToPentatopeMeshFilter, the right-hand
+ *   normals of triangles point out of the region of the first label of `Labels`.
+ * - Cells are in the order of those of the input that they are cut from, whose cell data they get
+ *   (`Label`, `Labels`).
  * - Point data is interpolated linearly along the edges of the input. Three kinds of arrays are
  *   left out: the array of times, which is constant in a slice; `PointIds`; and arrays of type
  *   vtkIdTypeArray, as their ids refer to other points.

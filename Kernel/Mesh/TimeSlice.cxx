@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -22,7 +23,23 @@ struct Edge
 {
   long long A;
   long long B;
+  auto operator<=>(const Edge&) const = default; ///< as the slice's points are numbered
 };
+
+using Wedge = std::array<Edge, 6>;
+
+/** The wedge turned so that its smallest corner comes first. */
+Wedge Turned(const Wedge& w)
+{
+  static constexpr std::array<std::array<std::size_t, 6>, 6> turns = { { { 0, 1, 2, 3, 4, 5 },
+    { 1, 2, 0, 4, 5, 3 }, { 2, 0, 1, 5, 3, 4 }, { 3, 5, 4, 0, 2, 1 }, { 4, 3, 5, 1, 0, 2 },
+    { 5, 4, 3, 2, 1, 0 } } };
+  const auto& turn =
+    turns[static_cast<std::size_t>(std::min_element(w.begin(), w.end()) - w.begin())];
+  Wedge turned;
+  std::transform(turn.begin(), turn.end(), turned.begin(), [&w](std::size_t i) { return w[i]; });
+  return turned;
+}
 
 /** Makes the cells of one slice. Corners are identified by edges. */
 class Cutter
@@ -67,14 +84,13 @@ public:
       places[i] = { this->Corners[i], i };
     }
     std::sort(places.begin(), places.end(),
-      [](const NumberedCorner& p, const NumberedCorner& q)
-      { return p.E.A != q.E.A ? p.E.A < q.E.A : p.E.B < q.E.B; });
+      [](const NumberedCorner& p, const NumberedCorner& q) { return p.E < q.E; });
 
     this->Slice.Connectivity.resize(places.size());
     for (std::size_t i = 0; i < places.size(); ++i)
     {
       const Edge& edge = places[i].E;
-      if (i == 0 || edge.A != places[i - 1].E.A || edge.B != places[i - 1].E.B)
+      if (i == 0 || edge != places[i - 1].E)
       {
         this->AddPoint(edge);
       }
@@ -165,68 +181,34 @@ private:
     const auto& p = sides.Points;
     if (sides.Fewer == 1)
     {
-      if (!p[0].At)
-      {
-        this->Add<4>(SliceCellType::Tetrahedron,
-          { On(p[0], p[1]), On(p[0], p[2]), On(p[0], p[3]), On(p[0], p[4]) });
-      }
+      this->Add<4>({ On(p[0], p[1]), On(p[0], p[2]), On(p[0], p[3]), On(p[0], p[4]) });
     }
     else if (sides.Fewer == 2)
     {
-      this->AddWedge({ On(p[0], p[2]), On(p[0], p[3]), On(p[0], p[4]), On(p[1], p[2]),
-                       On(p[1], p[3]), On(p[1], p[4]) },
-        { p[0].At, p[1].At }, { p[2].At, p[3].At, p[4].At });
+      this->AddWedge({ On(p[0], p[2]), On(p[0], p[4]), On(p[0], p[3]), On(p[1], p[2]),
+        On(p[1], p[4]), On(p[1], p[3]) });
     }
   }
 
   /**
-   * Adds the cell that remains of a wedge.
-   *
-   * @param triangles whether the triangle 0, 1, 2 is a point, and whether 3, 4, 5 is
-   * @param edges whether the edges 0-3, 1-4 and 2-5 are points. If a triangle is a point, no edge
-   *   is, since points at T are all above or all below
+   * Splits a wedge, the right-hand normal of whose first triangle points to the second one. Both
+   * quadrilaterals at its smallest corner are split there, the third one as its smallest corner
+   * says. If corners of the wedge coincide, what is left are the tetrahedra without such corners.
    */
-  void AddWedge(const std::array<Edge, 6>& w, const std::array<bool, 2>& triangles,
-    const std::array<bool, 3>& edges)
+  void AddWedge(const Wedge& wedge)
   {
-    if (triangles[0] || triangles[1])
+    const Wedge v = Turned(wedge);
+    if (std::min(v[1], v[5]) < std::min(v[2], v[4]))
     {
-      if (!triangles[1])
-      {
-        this->Add<4>(SliceCellType::Tetrahedron, { w[3], w[4], w[5], w[0] });
-      }
-      else if (!triangles[0])
-      {
-        this->Add<4>(SliceCellType::Tetrahedron, { w[0], w[2], w[1], w[3] });
-      }
-      return;
+      this->Add<4>({ v[0], v[1], v[2], v[5] });
+      this->Add<4>({ v[0], v[1], v[5], v[4] });
     }
-    switch (std::count(edges.begin(), edges.end(), true))
+    else
     {
-      case 0:
-        this->Add<6>(SliceCellType::Wedge, w);
-        break;
-      case 1:
-      {
-        // The apex, and the edges that stay. A wedge looks the same from each of its edges.
-        const auto a =
-          static_cast<std::size_t>(std::find(edges.begin(), edges.end(), true) - edges.begin());
-        const std::size_t b = (a + 1) % 3;
-        const std::size_t c = (a + 2) % 3;
-        this->Add<5>(SliceCellType::Pyramid, { w[b], w[c], w[c + 3], w[b + 3], w[a] });
-        break;
-      }
-      case 2:
-      {
-        const auto c =
-          static_cast<std::size_t>(std::find(edges.begin(), edges.end(), false) - edges.begin());
-        this->Add<4>(
-          SliceCellType::Tetrahedron, { w[(c + 1) % 3], w[c], w[(c + 2) % 3], w[c + 3] });
-        break;
-      }
-      default: // the cell is flat
-        break;
+      this->Add<4>({ v[0], v[1], v[2], v[4] });
+      this->Add<4>({ v[0], v[4], v[2], v[5] });
     }
+    this->Add<4>({ v[0], v[4], v[5], v[3] });
   }
 
   /** Cuts a face of a pentatope whose other point lies inside. */
@@ -236,38 +218,18 @@ private:
     if (sides.Fewer == 1)
     {
       sides.Permute(sides.FewerBelow);
-      if (!p[0].At)
-      {
-        this->Add<3>(SliceCellType::Triangle, { On(p[0], p[1]), On(p[0], p[2]), On(p[0], p[3]) });
-      }
+      this->Add<3>({ On(p[0], p[1]), On(p[0], p[2]), On(p[0], p[3]) });
     }
     else if (sides.Fewer == 2)
     {
       sides.Permute(true);
-      this->AddQuad({ On(p[0], p[3]), On(p[1], p[3]), On(p[1], p[2]), On(p[0], p[2]) });
-    }
-  }
-
-  /** Adds the polygon that remains of a quadrilateral. Some of its edges may be points. */
-  void AddQuad(const std::array<Edge, 4>& quad)
-  {
-    std::array<Edge, 4> left;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      const Edge& next = quad[(i + 1) % 4];
-      if (quad[i].A != next.A || quad[i].B != next.B)
-      {
-        left[count++] = quad[i];
-      }
-    }
-    if (count == 4)
-    {
-      this->Add<4>(SliceCellType::Quad, left);
-    }
-    else if (count == 3)
-    {
-      this->Add<3>(SliceCellType::Triangle, { left[0], left[1], left[2] });
+      const std::array<Edge, 4> quad = { On(p[0], p[3]), On(p[1], p[3]), On(p[1], p[2]),
+        On(p[0], p[2]) };
+      const auto first =
+        static_cast<std::size_t>(std::min_element(quad.begin(), quad.end()) - quad.begin());
+      const Edge& opposite = quad[(first + 2) % 4];
+      this->Add<3>({ quad[first], quad[(first + 1) % 4], opposite });
+      this->Add<3>({ quad[first], opposite, quad[(first + 3) % 4] });
     }
   }
 
@@ -281,11 +243,18 @@ private:
     return { std::min(p.Id, q.Id), std::max(p.Id, q.Id) };
   }
 
+  /** Adds a cell unless two of its corners are the same. */
   template <std::size_t N>
-  void Add(SliceCellType type, const std::array<Edge, N>& corners)
+  void Add(const std::array<Edge, N>& corners)
   {
+    for (std::size_t i = 1; i < N; ++i)
+    {
+      if (std::count(corners.begin(), corners.begin() + i, corners[i]) > 0)
+      {
+        return;
+      }
+    }
     this->Corners.insert(this->Corners.end(), corners.begin(), corners.end());
-    this->Slice.Types.push_back(type);
     this->Slice.Offsets.push_back(static_cast<long long>(this->Corners.size()));
     this->Slice.Sources.push_back(this->Source);
   }

@@ -34,16 +34,6 @@ struct SpaceTimeMesh
   std::span<const long long> Connectivity; ///< indices of points
 };
 
-/** The values are VTK's cell types, and the order of corners is VTK's. */
-enum class SliceCellType : unsigned char
-{
-  Triangle = 5,
-  Quad = 9,
-  Tetrahedron = 10,
-  Wedge = 13,
-  Pyramid = 14
-};
-
 /** The position of a point of a slice in the mesh: A + Weight (B - A). */
 struct CutPoint
 {
@@ -52,12 +42,11 @@ struct CutPoint
   double Weight; ///< 0 < Weight < 1; 0 if A equals B
 };
 
-/** A mesh in space. Each point occurs once and is used by a cell. */
+/** A mesh of tetrahedra and triangles in space. Each point occurs once and is used by a cell. */
 struct TimeSlice
 {
   std::vector<Point<3>> Points;
-  std::vector<CutPoint> Origins; ///< of each point; sorted by A, then B
-  std::vector<SliceCellType> Types;
+  std::vector<CutPoint> Origins;  ///< of each point; sorted by A, then B
   std::vector<long long> Offsets; ///< as in SpaceTimeMesh, but never empty
   std::vector<long long> Connectivity;
   /** For each cell, the cell of the space-time mesh from which it was cut; ascending. */
@@ -70,33 +59,31 @@ struct TimeSlice
  * The points of a simplex before the time T of the slice are below, the others above. The slice has
  * a corner on each edge between a point below and a point above.
  *
- *     pentatope    1 | 4  tetrahedron      2 | 3  wedge: edge below, triangle above, or vice versa
- *     tetrahedron  1 | 3  triangle         2 | 2  quadrilateral
+ *     pentatope    1 | 4  tetrahedron      2 | 3  wedge: three tetrahedra
+ *     tetrahedron  1 | 3  triangle         2 | 2  quadrilateral: two triangles
  *
  * **Conforming.** A corner is a function of its edge and T alone. A face that two simplices share
- * is cut in one way, so neighbours in the slice share all corners of the common face. Triangles
- * meet triangles. Quadrilaterals are plane and meet quadrilaterals. No cell is split, so neighbours
- * need not agree on a splitting.
+ * is cut in one way, so neighbours in the slice share all corners of the common face. Each
+ * quadrilateral is plane, and is split by the diagonal of its smallest point, so neighbours agree
+ * (Dompierre et al. 1999, "How to subdivide pyramids, prisms and hexahedra into tetrahedra"). So
+ * do the slices of two meshes if the points of one are points of the other, in the same order.
  *
  * **Points at T.** If points of the mesh lie at T, the slice is a limit: of the slices shortly
  * before T, or, at the mesh's first time, of the slices shortly after. So a part of the mesh that
  * lies flat at T is never cut twice, and at the first and the last time the slice is the flat end
- * of the mesh. In the limit, if an edge ends in a point at T, its corner becomes that point. A
- * wedge that loses one edge is a pyramid. A wedge that loses two edges or a triangle is a
- * tetrahedron. Cells without volume and polygons without area are dropped. These decisions depend
- * on points alone, and not on edges or positions, so all cells agree. If a pentatope between two
- * interfaces is dropped, the interfaces meet: the polygons of both stay and coincide.
+ * of the mesh. In the limit, if an edge ends in a point at T, its corner becomes that point. Cells
+ * of which two corners become one are dropped. This depends on points alone, and not on positions,
+ * so all cells agree. If all of a pentatope between two interfaces is dropped, the interfaces meet:
+ * the triangles of both stay and coincide.
  *
  * A point counts as lying at T if its time differs by no more than 1e-12 of the mesh's duration, or
  * four roundings of its largest time if that is more: times of frames that are computed in two ways
  * differ by roundings.
  *
  * **Orientation.** Let the columns of a determinant be in the order x, y, z, t. A pentatope with
- * det(p_1 - p_0, ..., p_4 - p_0) > 0 gives cells of positive volume, up to the rounding of corners,
- * in VTK's order of corners. (For a wedge: the right-hand normal of the first triangle points away
- * from the second. For a pyramid: the right-hand normal of the base points to the apex.) Take a
- * tetrahedron (p_0, ..., p_3) for which (q, p_0, ..., p_3) is positive if q is on its inner side,
- * as for SimplexMesh::Facets. It gives polygons whose right-hand normal points outwards. If the
+ * det(p_1 - p_0, ..., p_4 - p_0) > 0 gives tetrahedra of positive volume, up to the rounding of
+ * corners. Take a tetrahedron (p_0, ..., p_3) for which (q, p_0, ..., p_3) is positive if q is on its inner side,
+ * as for SimplexMesh::Facets. It gives triangles whose right-hand normal points outwards. If the
  * mesh has the opposite orientation, so has the slice.
  *
  * Several threads may call const members at once, but no others. The mesh's memory must outlive the

@@ -3,7 +3,6 @@
 #include "Quality/SpaceTimeMeasurement.h"
 
 #include "Geometry/SimplexQuality.h"
-#include "Mesh/SliceTetrahedra.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -110,8 +109,14 @@ void SpaceTimeMeasurer::MeasureElements(std::size_t worst, const std::stop_token
 void SpaceTimeMeasurer::MeasureCut(
   double time, const LabelImage<3>* image, const ImageFrame& frame, const std::stop_token& stop)
 {
-  SimplexMesh<3> cut =
-    SplitIntoTetrahedra(this->Slicer->Slice(time), std::span(this->Pentatopes.Labels));
+  const TimeSlice slice = this->Slicer->Slice(time);
+  SimplexMesh<3> cut;
+  cut.Points.assign(slice.Points.begin(), slice.Points.end());
+  for (std::size_t c = 0; c < slice.Sources.size(); ++c)
+  {
+    std::copy_n(slice.Connectivity.data() + 4 * c, 4, cut.Simplices.emplace_back().begin());
+    cut.Labels.push_back(this->Pentatopes.Labels[static_cast<std::size_t>(slice.Sources[c])]);
+  }
   this->All.Frames.push_back({ time, MeasureMesh(cut, image, frame, this->Options, stop) });
 }
 

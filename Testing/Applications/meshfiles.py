@@ -96,23 +96,16 @@ class Boundary:
 
 @dataclass
 class Slice(Labelled):
-    """Tetrahedra, wedges and pyramids, as a list of the ids of each cell."""
     points: np.ndarray
-    cells: list
+    cells: np.ndarray
     labels: np.ndarray
     time: float
     space: str = ""
     point_velocities: np.ndarray = None  # three columns
 
     def volumes(self):
-        parts = {4: ((0, 1, 2, 3),), 5: ((0, 1, 2, 4), (0, 2, 3, 4)),
-                 6: ((0, 1, 2, 5), (0, 1, 5, 4), (0, 4, 5, 3))}
-        volumes = []
-        for cell in self.cells:
-            corners = self.points[cell]
-            volumes.append(sum(abs(np.linalg.det(corners[list(part[1:])] - corners[part[0]])) / 6.0
-                               for part in parts[len(cell)]))
-        return np.array(volumes)
+        corners = self.points[self.cells]
+        return np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6.0
 
 
 def texts_of(data, name):
@@ -210,12 +203,8 @@ def _surface_names(grid):
 
 def read_slice(path):
     grid = _read(vtkXMLUnstructuredGridReader(), path)
-    cells = []
-    for i in range(grid.GetNumberOfCells()):
-        ids = grid.GetCell(i).GetPointIds()
-        if (grid.GetCellType(i), ids.GetNumberOfIds()) not in ((10, 4), (13, 6), (14, 5)):
-            raise AssertionError("cell %d" % i)
-        cells.append([ids.GetId(k) for k in range(ids.GetNumberOfIds())])
+    _require_type(grid, 10)
+    cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
     labels = grid.GetCellData().GetArray("Label")
     points = _points(grid) if grid.GetNumberOfPoints() else np.zeros((0, 3))
     velocities = grid.GetPointData().GetArray("BoundaryVelocity")

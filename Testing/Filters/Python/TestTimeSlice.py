@@ -10,9 +10,9 @@ import unittest
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonCore import VTK_DOUBLE, VTK_FLOAT, vtkIdList, vtkPoints, vtkStringArray
-from vtkmodules.vtkCommonDataModel import (VTK_HEXAHEDRON, VTK_POLY_VERTEX, VTK_PYRAMID, VTK_QUAD, VTK_TETRA, VTK_TRIANGLE,
-                                           VTK_WEDGE, vtkDataObject, vtkUnstructuredGrid)
+from vtkmodules.vtkCommonCore import VTK_DOUBLE, VTK_FLOAT, vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import (VTK_HEXAHEDRON, VTK_POLY_VERTEX, VTK_PYRAMID, VTK_TETRA, VTK_TRIANGLE,
+                                           vtkDataObject, vtkUnstructuredGrid)
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
 import voxplex
@@ -134,19 +134,19 @@ class SliceTestCase(unittest.TestCase):
         slicer.AddObserver("StartEvent", count)
         return slicer
 
+    def corners(self, output):
+        """Of the tetrahedra, by their numbers."""
+        return {cell: vtk_to_numpy(output.GetCell(cell).GetPoints().GetData()).copy()
+                for cell in range(output.GetNumberOfCells()) if output.GetCellType(cell) == VTK_TETRA}
+
     def volumes(self, output):
-        """Of labels (0: without), as VTK triangulates the cells; each piece is positive."""
+        """Of labels (0: without); each tetrahedron is positive."""
         volumes, labels = {}, output.GetCellData().GetArray("Label")
-        ids, points = vtkIdList(), vtkPoints()
-        points.SetDataTypeToDouble()
-        for cell in range(output.GetNumberOfCells()):
-            if output.GetCell(cell).GetCellDimension() == 3:
-                output.GetCell(cell).Triangulate(0, ids, points)
-                corners = vtk_to_numpy(points.GetData()).reshape(-1, 4, 3)
-                pieces = numpy.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
-                self.assertGreater(pieces.min(), 0)
-                label = labels.GetValue(cell) if labels else 0
-                volumes[label] = volumes.get(label, 0) + pieces.sum()
+        for cell, corners in self.corners(output).items():
+            volume = numpy.linalg.det(corners[1:] - corners[0]) / 6
+            self.assertGreater(volume, 0)
+            label = labels.GetValue(cell) if labels else 0
+            volumes[label] = volumes.get(label, 0) + volume
         return volumes
 
     def check(self, slicer, time):
@@ -298,19 +298,19 @@ class Slices(SliceTestCase):
             self.assertEqual(labels.GetNumberOfTuples(), output.GetNumberOfCells())
             self.assertIsNotNone(output.GetFieldData().GetAbstractArray("SPACE"))
             types.update(map(output.GetCellType, range(output.GetNumberOfCells())))
-        self.assertEqual(types, {VTK_TETRA, VTK_WEDGE})
+        self.assertEqual(types, {VTK_TETRA})
         self.assertEqual(mesh.GetPointData().GetNumberOfArrays(), 3)
 
     def test_points_at_the_time(self):
         """One pentatope with an edge before the time, and more and more of the other points at it."""
-        for at_the_time, expected in enumerate(([VTK_WEDGE], [VTK_PYRAMID], [VTK_TETRA], [])):
+        for at_the_time, expected in enumerate((3, 2, 1, 0)):
             times = [-1, -1] + [0] * at_the_time + [1] * (3 - at_the_time)
             points = numpy.column_stack(([[0, 0, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [0, 0, 0]], times)).astype(float)
             slicer = self.slicer(grid_of(points, [range(5)], VTK_POLY_VERTEX))
             slicer.SetSliceTime(0.0)
             slicer.Update()
             output = slicer.GetOutput()
-            self.assertEqual([output.GetCellType(cell) for cell in range(output.GetNumberOfCells())], expected)
+            self.assertEqual([output.GetCellType(cell) for cell in range(output.GetNumberOfCells())], [VTK_TETRA] * expected)
             self.assertTrue(all(volume > 0.05 for volume in self.volumes(output).values()))
 
     def test_other_storage(self):
@@ -335,16 +335,19 @@ class Slices(SliceTestCase):
         self.assertIsNone(slicer.GetOutput().GetPointData().GetArray("t"))
 
     def test_boundary(self):
-        """Polygons close the labels; volumes by the divergence theorem."""
-        slicer = self.slicer(boundary())
+        """Triangles are faces of the tetrahedra, and close the labels; volumes by the divergence theorem."""
+        slicer, inside = self.slicer(boundary()), self.slicer(pentatopes())
         for time in (0.0, 0.4, 1.0, 1.5, 2.0):
             slicer.UpdateTimeStep(time)
+            inside.UpdateTimeStep(time)
+            faces = {frozenset(map(tuple, face)) for points in self.corners(inside.GetOutput()).values()
+                     for face in itertools.combinations(points, 3)}
             output, volumes = slicer.GetOutput(), numpy.zeros(3)
             for cell, pair in enumerate(vtk_to_numpy(output.GetCellData().GetArray("Labels"))):
-                self.assertIn(output.GetCellType(cell), (VTK_TRIANGLE, VTK_QUAD))
+                self.assertEqual(output.GetCellType(cell), VTK_TRIANGLE)
                 points = vtk_to_numpy(output.GetCell(cell).GetPoints().GetData())
-                for k in range(2, len(points)):
-                    volumes[pair] += numpy.linalg.det(points[[0, k - 1, k]]) / 6 * numpy.array((1, -1))
+                self.assertIn(frozenset(map(tuple, points)), faces)
+                volumes[pair] += numpy.linalg.det(points) / 6 * numpy.array((1, -1))
             numpy.testing.assert_allclose(volumes[1:], 4, atol=1e-12)
 
     def test_mixed(self):

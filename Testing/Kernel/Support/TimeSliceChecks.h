@@ -74,26 +74,11 @@ inline Corners CellOf(const TimeSlice& slice, std::size_t cell)
     slice.Connectivity.begin() + slice.Offsets[cell + 1] };
 }
 
-/** The faces as VTK lists them, normals outwards for a cell of positive volume. */
+/** The faces of a tetrahedron, normals outwards if its volume is positive. */
 inline std::vector<Corners> FacesOf(const TimeSlice& slice, std::size_t cell)
 {
-  static const std::map<SliceCellType, std::vector<Corners>> tables = {
-    { SliceCellType::Tetrahedron, { { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 }, { 0, 2, 1 } } },
-    { SliceCellType::Wedge,
-      { { 0, 1, 2 }, { 3, 5, 4 }, { 0, 3, 4, 1 }, { 1, 4, 5, 2 }, { 2, 5, 3, 0 } } },
-    { SliceCellType::Pyramid,
-      { { 0, 3, 2, 1 }, { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } } },
-  };
-  const Corners corners = CellOf(slice, cell);
-  std::vector<Corners> faces = tables.at(slice.Types[cell]);
-  for (Corners& face : faces)
-  {
-    for (long long& corner : face)
-    {
-      corner = corners[static_cast<std::size_t>(corner)];
-    }
-  }
-  return faces;
+  const Corners v = CellOf(slice, cell);
+  return { { v[0], v[1], v[3] }, { v[1], v[2], v[3] }, { v[2], v[0], v[3] }, { v[0], v[2], v[1] } };
 }
 
 inline Point<3> PointOf(const TimeSlice& slice, long long id)
@@ -101,45 +86,31 @@ inline Point<3> PointOf(const TimeSlice& slice, long long id)
   return slice.Points[static_cast<std::size_t>(id)];
 }
 
-inline double TetrahedronVolume(
-  const Point<3>& a, const Point<3>& b, const Point<3>& c, const Point<3>& d)
+inline double VolumeOf(const TimeSlice& slice, std::size_t cell)
 {
-  return Determinant<double>({ Subtract(b, a), Subtract(c, a), Subtract(d, a) }) / 6.0;
-}
-
-/** Measured by the tetrahedra that VTK splits the cell into. None of them may be inverted. */
-inline double VolumeOf(const TimeSlice& slice, std::size_t cell, double& smallest)
-{
-  static const std::map<SliceCellType, std::vector<std::array<std::size_t, 4>>> splits = {
-    { SliceCellType::Tetrahedron, { { 0, 1, 2, 3 } } },
-    { SliceCellType::Wedge, { { 0, 2, 1, 3 }, { 1, 3, 5, 4 }, { 1, 2, 5, 3 } } },
-    { SliceCellType::Pyramid, { { 0, 1, 2, 4 }, { 0, 2, 3, 4 } } },
-  };
   const Corners corners = CellOf(slice, cell);
-  double sum = 0.0;
-  for (const auto& t : splits.at(slice.Types[cell]))
+  std::array<Point<3>, 3> rows;
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    const double volume = TetrahedronVolume(PointOf(slice, corners[t[0]]),
-      PointOf(slice, corners[t[1]]), PointOf(slice, corners[t[2]]), PointOf(slice, corners[t[3]]));
-    smallest = std::min(smallest, volume);
-    sum += volume;
+    rows[i] = Subtract(PointOf(slice, corners[i + 1]), PointOf(slice, corners[0]));
   }
-  return sum;
+  return Determinant(rows) / 6.0;
 }
 
 struct Volumes
 {
   double All = 0.0;
-  double Smallest = std::numeric_limits<double>::infinity(); ///< of the tetrahedra of cells
+  double Smallest = std::numeric_limits<double>::infinity();
   std::map<long long, double> OfLabel;
 };
 
 inline Volumes Measure(const TimeSlice& slice, const Mesh& mesh)
 {
   Volumes volumes;
-  for (std::size_t c = 0; c < slice.Types.size(); ++c)
+  for (std::size_t c = 0; c < slice.Sources.size(); ++c)
   {
-    const double volume = VolumeOf(slice, c, volumes.Smallest);
+    const double volume = VolumeOf(slice, c);
+    volumes.Smallest = std::min(volumes.Smallest, volume);
     volumes.All += volume;
     volumes.OfLabel[mesh.Labels[static_cast<std::size_t>(slice.Sources[c])]] += volume;
   }
@@ -168,7 +139,7 @@ std::vector<T> Reversed(std::vector<T> cycle)
 inline void ExpectToFillBox(const TimeSlice& slice, const Mesh& mesh, double size)
 {
   std::map<Corners, long long> faces; // cycles, with their cells
-  for (std::size_t c = 0; c < slice.Types.size(); ++c)
+  for (std::size_t c = 0; c < slice.Sources.size(); ++c)
   {
     for (const Corners& face : FacesOf(slice, c))
     {
@@ -204,13 +175,12 @@ inline void ExpectToFillBox(const TimeSlice& slice, const Mesh& mesh, double siz
 inline void ExpectGoodArrays(const TimeSlice& slice, const Mesh& mesh, double time)
 {
   ASSERT_EQ(slice.Points.size(), slice.Origins.size());
-  ASSERT_EQ(slice.Types.size() + 1, slice.Offsets.size());
-  ASSERT_EQ(slice.Types.size(), slice.Sources.size());
+  ASSERT_EQ(slice.Sources.size() + 1, slice.Offsets.size());
   ASSERT_EQ(slice.Offsets.back(), static_cast<long long>(slice.Connectivity.size()));
   EXPECT_TRUE(std::is_sorted(slice.Sources.begin(), slice.Sources.end()));
   std::set<long long> used(slice.Connectivity.begin(), slice.Connectivity.end());
   EXPECT_EQ(used.size(), slice.Points.size());
-  for (std::size_t c = 0; c < slice.Types.size(); ++c)
+  for (std::size_t c = 0; c < slice.Sources.size(); ++c)
   {
     const Corners corners = CellOf(slice, c);
     EXPECT_EQ(std::set<long long>(corners.begin(), corners.end()).size(), corners.size());
@@ -274,7 +244,7 @@ inline void ExpectSameBoundary(
   const TimeSlice& slice, const Mesh& mesh, const TimeSlice& cut, const Mesh& boundary)
 {
   Boundaries expected;
-  for (std::size_t c = 0; c < slice.Types.size(); ++c)
+  for (std::size_t c = 0; c < slice.Sources.size(); ++c)
   {
     const long long label = mesh.Labels[static_cast<std::size_t>(slice.Sources[c])];
     for (const Corners& face : FacesOf(slice, c))
@@ -283,10 +253,10 @@ inline void ExpectSameBoundary(
     }
   }
   Boundaries found;
-  for (std::size_t c = 0; c < cut.Types.size(); ++c)
+  for (std::size_t c = 0; c < cut.Sources.size(); ++c)
   {
     const Corners corners = CellOf(cut, c);
-    EXPECT_EQ(cut.Types[c], corners.size() == 3 ? SliceCellType::Triangle : SliceCellType::Quad);
+    EXPECT_EQ(corners.size(), 3u);
     const auto source = static_cast<std::size_t>(cut.Sources[c]);
     found.Add(boundary.Labels[source], Named(cut, corners), 1);
     if (boundary.Others[source] != 0)
@@ -294,7 +264,7 @@ inline void ExpectSameBoundary(
       found.Add(boundary.Others[source], Named(cut, corners), -1);
     }
   }
-  EXPECT_GT(cut.Types.size(), 0u);
+  EXPECT_GT(cut.Sources.size(), 0u);
   EXPECT_TRUE(found == expected);
 }
 
