@@ -114,9 +114,8 @@ po::options_description DescribeFiles()
       "cell array Label, or of pentatopes, which also have the point array Time. It is measured, "
       "beside the image if --input gives one, and written in other formats") //
     ("interfaces", Text("FILE"),
-      "the interfaces of --mesh (.vtp or .vtu; of pentatopes .vtu): --plc writes them, and formats "
-      "for "
-      "solvers make named surfaces of them")                                         //
+      "the interfaces of --mesh (.vtp or .vtu; of pentatopes .vtu); without it they are made from "
+      "the labels")                                                                  //
     ("series", Text("UID"), "the DICOM series to read, if the folder holds several") //
     ("spacing", Text("X,Y,Z"),
       "the distances of voxels along the axes of the image, in place of what its file says: for "

@@ -16,13 +16,11 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkSimplexMeshInterfaces.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <filesystem>
 #include <new>
 
@@ -55,16 +53,9 @@ vtkSmartPointer<TData> Read(
   return reader->GetOutput();
 }
 
+/** Elements, labels, points and times are looked at later. */
 void CheckMesh(vtkUnstructuredGrid* mesh)
 {
-  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
-  {
-    std::array<double, 3> place{};
-    mesh->GetPoint(point, place.data());
-    io::RefuseIf(
-      !std::all_of(place.begin(), place.end(), [](double x) { return std::isfinite(x); }), "point ",
-      point, " has coordinates that are not finite");
-  }
   const bool isSpaceTime = HasPentatopes(mesh);
   io::CheckCells(mesh, isSpaceTime ? VTK_POLY_VERTEX : VTK_TETRA, isSpaceTime ? 5 : 4,
     isSpaceTime ? "its first cell is a pentatope (VTK_POLY_VERTEX of five points), so all must be"
@@ -72,16 +63,27 @@ void CheckMesh(vtkUnstructuredGrid* mesh)
     "");
   io::CheckArray(mesh->GetCellData(), "Label", 1, mesh->GetNumberOfCells(), "its cells have",
     "; it holds the label of each cell");
-  if (!isSpaceTime)
+  if (isSpaceTime)
   {
-    return;
+    io::CheckArray(mesh->GetPointData(), "Time", 1, mesh->GetNumberOfPoints(), "its points have",
+      "; it holds the time of each point");
   }
-  vtkDataArray* const times = io::CheckArray(mesh->GetPointData(), "Time", 1,
-    mesh->GetNumberOfPoints(), "its points have", "; it holds the time of each point");
-  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
+}
+
+/** Turns inverted elements round, leaves unused points out, and makes the interfaces. */
+void PutRight(MeshWithInterfaces& mesh)
+{
+  vtkNew<vtkSimplexMeshInterfaces> filter;
+  filter->SetInputData(mesh.Mesh);
+  filter->Update();
+  io::RefuseIf(!filter->GetErrorMessage().empty(), filter->GetErrorMessage());
+  mesh.Mesh = filter->GetOutput();
+  mesh.Interfaces = filter->GetOutputDataObject(HasPentatopes(mesh.Mesh) ? 2 : 1);
+  mesh.IsChanged = filter->GetChanged();
+  if (const auto count = filter->GetNumberOfTurnedElements(); count > 0)
   {
-    io::RefuseIf(
-      !std::isfinite(times->GetComponent(point, 0)), "the time of point ", point, " is not finite");
+    mesh.Warning = std::to_string(count) + " of " + std::to_string(mesh.Mesh->GetNumberOfCells()) +
+      " elements are inverted: they are turned round";
   }
 }
 
@@ -155,12 +157,15 @@ int MeshWithInterfaces::Dimension() const
 MeshWithInterfaces ReadMeshFiles(const std::string& mesh, const std::string& interfaces)
 {
   MeshWithInterfaces result;
+  vtkIdType numberOfPoints = 0;
   Named(mesh,
     [&]
     {
       result.Mesh =
         Read<vtkXMLUnstructuredGridReader, vtkUnstructuredGrid>(mesh, ".vtu", "UnstructuredGrid");
       CheckMesh(result.Mesh);
+      numberOfPoints = result.Mesh->GetNumberOfPoints();
+      PutRight(result);
     });
   if (!interfaces.empty())
   {
@@ -168,8 +173,11 @@ MeshWithInterfaces ReadMeshFiles(const std::string& mesh, const std::string& int
       [&]
       {
         const auto cells = ReadInterfaces(interfaces, HasPentatopes(result.Mesh));
-        CheckArraysOfInterfaces(cells, result.Mesh->GetNumberOfPoints());
-        result.Interfaces = cells;
+        CheckArraysOfInterfaces(cells, numberOfPoints);
+        if (!result.IsChanged)
+        {
+          result.Interfaces = cells;
+        }
       });
   }
   return result;

@@ -21,17 +21,21 @@ namespace voxplex::cli
 struct MeshWithInterfaces
 {
   vtkSmartPointer<vtkUnstructuredGrid> Mesh;
-  vtkSmartPointer<vtkDataObject> Interfaces; ///< may be null
+  vtkSmartPointer<vtkDataObject> Interfaces;
+  bool IsChanged = false; ///< is not as it was read: elements were turned, or points left out
+  std::string Warning;    ///< may be empty
 
   int Dimension() const; ///< 4 if the mesh has pentatopes, else 3
 };
 
 /**
  * Reads files that strangers may have made. What they claim is checked before VTK's readers see them. Cells and
- * arrays are checked afterwards, so that the rest of the program can rely on them.
+ * arrays are checked afterwards, and the mesh is put right (vtkSimplexMeshInterfaces), so that the rest of the program
+ * can rely on it.
  *
  * @param mesh a .vtu file of tetrahedra or pentatopes, as vtkSimplexMeshWriter writes them
- * @param interfaces of that mesh: a .vtp or .vtu file of triangles, or a .vtu file of tetrahedra; empty: none
+ * @param interfaces of that mesh: a .vtp or .vtu file of triangles, or a .vtu file of tetrahedra. They are made if it is
+ *   empty, or if the mesh was changed
  * @throws RunError that names the file and says what is wrong
  */
 MeshWithInterfaces ReadMeshFiles(const std::string& mesh, const std::string& interfaces);

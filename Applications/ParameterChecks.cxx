@@ -111,10 +111,7 @@ void CheckMesh(const Parameters& p)
     RefuseIf(!p.MeshInterfaces.empty(), "--interfaces",
       ": these are those of a mesh that is there; give it with --mesh");
     RefuseIf(p.Inputs.empty(), "--input is missing: which image shall be meshed?");
-    return;
   }
-  RefuseIf(!p.Interfaces.empty() && p.MeshInterfaces.empty(), "--plc",
-    ": the interfaces of a mesh that is there come from a file; give it with --interfaces");
 }
 
 /** A copy of the image. */

@@ -268,6 +268,10 @@ MeshWithInterfaces ReadMesh(const Parameters& p, const MeshingInput& input)
     return {};
   }
   MeshWithInterfaces given = ReadMeshFiles(p.Mesh, p.MeshInterfaces);
+  if (!given.Warning.empty())
+  {
+    Warn({ "'" + p.Mesh + "': " + given.Warning });
+  }
   if (input.Labels && input.Dimension() != given.Dimension())
   {
     throw UsageError(given.Dimension() == 4

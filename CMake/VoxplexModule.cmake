@@ -32,6 +32,7 @@ vtk_module_add_module(VTK::Voxplex
     ${voxplex_filters}/vtkMeshingStatistics
     ${voxplex_filters}/vtkPentatopeMeshTimeSlice
     ${voxplex_filters}/vtkSegmentationRepair
+    ${voxplex_filters}/vtkSimplexMeshInterfaces
     ${voxplex_filters}/vtkSimplexMeshQuality
   PRIVATE_HEADERS
     ${voxplex_filters}/Private/ChosenArray.h

@@ -27,13 +27,20 @@ namespace
 {
 
 /** The label of an element. */
-std::int64_t LabelOf(double value, vtkIdType cell)
+std::int64_t LabelOf(vtkDataArray* labels, vtkIdType cell)
 {
+  const double value = NearestLabel(labels->GetComponent(cell, 0));
   if (!(value >= 1.0 && value <= 9007199254740992.0 && value == std::floor(value)))
   {
+    vtkIdType count = 1;
+    for (vtkIdType other = cell + 1; other < labels->GetNumberOfTuples(); ++other)
+    {
+      const double one = NearestLabel(labels->GetComponent(other, 0));
+      count += one == value || (std::isnan(one) && std::isnan(value)) ? 1 : 0;
+    }
     std::ostringstream text;
-    text << "Cell " << cell << " of the mesh has the label " << value
-         << "; labels are whole numbers above 0.";
+    text << "Cells of the mesh with the label " << value << ": " << count << ", the first is cell "
+         << cell << ". Labels are whole numbers above 0.";
     throw InputError(text.str());
   }
   return static_cast<std::int64_t>(value);
@@ -108,7 +115,7 @@ void ReadCells(vtkUnstructuredGrid* grid, vtkAbstractArray* chosen, int type, Si
     {
       simplex[i] = static_cast<std::uint32_t>(ids[i]);
     }
-    mesh.Labels[static_cast<std::size_t>(c)] = LabelOf(NearestLabel(labels->GetComponent(c, 0)), c);
+    mesh.Labels[static_cast<std::size_t>(c)] = LabelOf(labels, c);
   }
 }
 

@@ -12,8 +12,8 @@ tetrahedra, and a time series into one of pentatopes: NumPy arrays, which VTK, P
 :func:`quality` measures a mesh.
 
 For pipelines there are `vtkImageToTetMeshFilter` and `vtkImageToPentatopeMeshFilter`. Where Voxplex was built with
-VTK's Python wrapping, these are the C++ classes, and there are `vtkPentatopeMeshTimeSlice`, `vtkSimplexMeshQuality`,
-`vtkSegmentationReader`, `vtkMasksToSegmentation` and `vtkSimplexMeshWriter`; in the wheel they are made for any VTK (:mod:`voxplex.pipeline`).
+VTK's Python wrapping, these are the C++ classes, and there are `vtkPentatopeMeshTimeSlice`, `vtkSimplexMeshInterfaces`,
+`vtkSimplexMeshQuality`, `vtkSegmentationReader`, `vtkMasksToSegmentation` and `vtkSimplexMeshWriter`; in the wheel they are made for any VTK (:mod:`voxplex.pipeline`).
 
 `python3 -m voxplex` runs the command line.
 """

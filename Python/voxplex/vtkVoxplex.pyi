@@ -19,6 +19,9 @@ class vtkPentatopeMeshTimeSlice(vtkUnstructuredGridAlgorithm):
 class vtkSegmentationRepair(vtkImageAlgorithm):
     def __getattr__(self, name: str) -> Any: ...
 
+class vtkSimplexMeshInterfaces(vtkUnstructuredGridAlgorithm):
+    def __getattr__(self, name: str) -> Any: ...
+
 class vtkSimplexMeshQuality(vtkUnstructuredGridAlgorithm):
     def __getattr__(self, name: str) -> Any: ...
 

@@ -9,11 +9,15 @@ import signal
 import subprocess
 import time
 
-from vtkmodules.vtkCommonCore import vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkPolyData
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import VTK_ID_TYPE, vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkIOXML import (vtkXMLPolyDataReader, vtkXMLPolyDataWriter, vtkXMLUnstructuredGridReader,
+                                 vtkXMLUnstructuredGridWriter)
 
 import images
+import meshfiles
 from program import PROGRAM, ProgramTestCase, main
 
 
@@ -48,14 +52,14 @@ class MeshTestCase(ProgramTestCase):
     def same_files(self, first, second):
         self.assertEqual((self.folder / first).read_bytes(), (self.folder / second).read_bytes(), second)
 
-    def load(self, name, reader=vtkXMLUnstructuredGridReader):
-        reader = reader()
+    def load(self, name):
+        reader = vtkXMLPolyDataReader() if name.endswith(".vtp") else vtkXMLUnstructuredGridReader()
         reader.SetFileName(str(self.folder / name))
         reader.Update()
         return reader.GetOutput()
 
     def save(self, grid, name, **settings):
-        writer = vtkXMLUnstructuredGridWriter()
+        writer = vtkXMLPolyDataWriter() if isinstance(grid, vtkPolyData) else vtkXMLUnstructuredGridWriter()
         writer.SetInputData(grid)
         writer.SetFileName(str(self.folder / name))
         for key, value in settings.items():
@@ -81,8 +85,6 @@ class Tetrahedra(MeshTestCase):
         self.run_program("--mesh", "m.vtu", "--interfaces", "i.vtp", "--plc", "j.vtu")
         self.run_program("--mesh", "m.vtu", "--interfaces", "j.vtu", "--output", "c.msh")
         self.same_files("a.msh", "c.msh")
-        self.run_program("--mesh", "m.vtu", "--output", "alone.msh")  # without surfaces
-        self.assertNotIn("label_7__label_3", (self.folder / "alone.msh").read_text())
 
     def test_measures_against_the_image(self):
         self.make()
@@ -130,7 +132,6 @@ class Tetrahedra(MeshTestCase):
                                 "--mesh", "m.vtu", option, *([] if value is None else [value]))
         for pattern, arguments in (
                 ("--interfaces: .*give it with --mesh", ("--input", self.input, "--interfaces", "i.vtp")),
-                ("--plc: .*give it with --interfaces", ("--mesh", "m.vtu", "--plc", "x.stl")),
                 ("--time-scale: only for meshes of pentatopes", ("--mesh", "m.vtu", "--time-scale", 2)),
                 ("--frame-times: only for meshes of pentatopes", ("--mesh", "m.vtu", "--frame-times", "1,2")),
                 ("--slices: only for meshes of pentatopes", ("--mesh", "m.vtu", "--slices", "s_", "--slice-count", 2)),
@@ -183,6 +184,172 @@ class Pentatopes(MeshTestCase):
                 (2, "--output: '.msh' does not hold", (*self.given, "--output", "x.msh")),
                 (2, "--frame-times: give the time of each frame", ("--input", self.input, "--frame-times", "1"))):
             self.assert_refused(status, pattern, *arguments)
+
+
+class OtherMeshes(MeshTestCase):
+    """What a mesh of another program may have: elements that are turned round, points that none uses, no surfaces."""
+    FORMATS = (".msh", ".mesh", ".mfem", ".feb", ".inp", ".xdmf")
+
+    def both(self):
+        """Tetrahedra with triangles, pentatopes with tetrahedra: their files, and the formats of solvers."""
+        self.make()
+        yield "m.vtu", "i.vtp", 4, self.FORMATS
+        series = images.write_space_time_nrrd(self.folder / "moving.nrrd", images.moving_balls(3, 12, 3.0))
+        self.mesh("--input", series, "--delta", 2, "--threads", 1, "--time-scale", 4, "--time-planes", 1, "--output", "p.vtu",
+                  "--plc", "boundary.vtu")
+        yield "p.vtu", "boundary.vtu", 5, (".mesh", ".mfem")
+
+    def convert(self, mesh, *arguments, warning=None):
+        done = self.call("--mesh", mesh, *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, "^voxplex: warning: .*%s.*\n$" % warning if warning else "^$")
+
+    def with_cells(self, grid, cells, size):
+        ids = numpy_to_vtk(numpy.ascontiguousarray(cells, dtype=numpy.int64).ravel(), deep=True, array_type=VTK_ID_TYPE)
+        array = vtkCellArray()
+        array.SetData(size, ids)
+        grid.SetCells(grid.GetCellType(0), array)
+        return grid
+
+    def cells(self, grid, size):
+        return vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, size).copy()
+
+    def test_turned_elements(self):
+        for mesh, surfaces, size, formats in self.both():
+            for name, step in (("all", 1), ("some", 3)):
+                grid = self.load(mesh)
+                cells = self.cells(grid, size)
+                cells[::step] = cells[::step][:, [*range(size - 2), size - 1, size - 2]]
+                self.save(self.with_cells(grid, cells, size), "turned.vtu")
+                told = "%d of %d elements are inverted: they are turned round" % (len(cells[::step]), len(cells))
+                for extension in (*formats, ".vtu"):
+                    with self.subTest(mesh=mesh, name=name, extension=extension):
+                        self.convert(mesh, "--output", "a" + extension)
+                        self.convert("turned.vtu", "--interfaces", surfaces, "--output", "b" + extension, warning=told)
+                        if extension != ".xdmf":
+                            self.same_files("a" + extension, "b" + extension)
+                self.convert("turned.vtu", "--stats", "t.json", warning=told)
+                self.convert(mesh, "--stats", "s.json")
+                self.assertEqual(self.json("t.json"), self.json("s.json"))
+
+    def test_mirrored(self):
+        """The interfaces look inwards then, as the elements are inverted; and stay where the mesh is turned."""
+        self.make()
+        for name in ("m.vtu", "i.vtp"):
+            data = self.load(name)
+            vtk_to_numpy(data.GetPoints().GetData())[:, 0] *= -1
+            self.save(data, "mirrored_" + name)
+        self.convert("mirrored_m.vtu", "--interfaces", "mirrored_i.vtp", "--plc", "x.stl", "--output", "x.inp",
+                     warning="inverted")
+        self.convert("mirrored_m.vtu", "--plc", "y.stl", "--output", "y.inp", warning="inverted")
+        self.convert("m.vtu", "--interfaces", "i.vtp", "--plc", "z.stl", "--output", "z.inp")
+        for name in ("x", "y"):
+            for read, measure in ((meshfiles.read_triangles, "enclosed_volume"), (meshfiles.read_tetrahedra, "volume_of_label")):
+                extension = ".inp" if measure == "volume_of_label" else ".stl"
+                one, other = (getattr(read(self.folder / (stem + extension)), measure)() for stem in (name, "z"))
+                self.assertEqual(str(one)[:8], str(other)[:8])
+
+    def test_unused_points(self):
+        for mesh, surfaces, size, formats in self.both():
+            grid, boundary = self.load(mesh), self.load(surfaces)
+            count = grid.GetNumberOfPoints()
+            places = numpy.insert(numpy.arange(count), [0, 7, count], 0)  # of which the first, another and the last are copies
+            numbers = numpy.delete(numpy.arange(count + 3), [0, 8, count + 2])
+            wide = vtkUnstructuredGrid()
+            wide.DeepCopy(grid)
+            points = vtkPoints()
+            points.SetDataTypeToDouble()
+            wide.GetPointData().CopyAllocate(grid.GetPointData(), count + 3)
+            for i, place in enumerate(places):
+                points.InsertNextPoint(grid.GetPoint(place))
+                wide.GetPointData().CopyData(grid.GetPointData(), int(place), i)
+            wide.SetPoints(points)
+            self.with_cells(wide, numbers[self.cells(grid, size)], size)
+            self.save(wide, "wide.vtu")
+            ids = vtk_to_numpy(boundary.GetPointData().GetArray("PointIds"))
+            ids[:] = numbers[ids]
+            name = self.save(boundary, "wide_" + surfaces)
+            for extension in formats:
+                with self.subTest(mesh=mesh, extension=extension):
+                    self.convert(mesh, "--output", "a" + extension)
+                    self.convert("wide.vtu", "--interfaces", name, "--output", "b" + extension)
+                    if extension != ".xdmf":
+                        self.same_files("a" + extension, "b" + extension)
+            self.convert("wide.vtu", "--output", "c" + formats[0])
+
+    def test_refused(self):
+        for mesh, _, size, _ in self.both():
+            for pattern, change in (
+                    ("with the label 0: 2, the first is cell 3. Labels are", lambda g, c: self.relabel(g, 3, 0)),
+                    ("with the label -1: 2, the first is cell 3", lambda g, c: self.relabel(g, 3, -1)),
+                    ("with the label 1.5: 2, the first is cell 3", lambda g, c: self.relabel(g, 3, 1.5)),
+                    ("with the label nan: 2, the first is cell 3", lambda g, c: self.relabel(g, 3, numpy.nan)),
+                    ("that an array of ghost types hides: 2, the first is cell 3", lambda g, c: self.hide(g.GetCellData(), len(c), 3, 32)),
+                    ("hides: 2", lambda g, c: self.hide(g.GetCellData(), len(c), 3, 1)),
+                    ("hides: ", lambda g, c: self.hide(g.GetPointData(), g.GetNumberOfPoints(), 3, 2)),
+                    ("without volume: 1, the first is cell 3", lambda g, c: c.__setitem__((3, 1), c[3, 0])),
+                    ("points of another one: 1, the first is cell 9", lambda g, c: c.__setitem__(9, c[3, ::-1]))):
+                with self.subTest(mesh=mesh, pattern=pattern):
+                    grid = self.load(mesh)
+                    cells = self.cells(grid, size)
+                    change(grid, cells)
+                    self.save(self.with_cells(grid, cells, size), "x.vtu")
+                    for arguments in (("--output", "x.mesh"), ("--stats", "x.json")):
+                        self.assert_refused(1, "cannot read 'x.vtu': Cells of the mesh .*" + pattern, "--mesh", "x.vtu", *arguments)
+            grid = self.load(mesh)  # nothing of it is hidden
+            self.hide(grid.GetCellData(), grid.GetNumberOfCells(), 3, 0)
+            self.save(grid, "x.vtu")
+            self.convert("x.vtu", "--output", "x.mesh")
+
+    def relabel(self, grid, cell, value):
+        labels = vtk_to_numpy(grid.GetCellData().GetArray("Label")).astype(float)
+        labels[[cell, -1]] = value
+        array = numpy_to_vtk(labels, deep=True)
+        array.SetName("Label")
+        grid.GetCellData().SetScalars(array)
+
+    def hide(self, data, count, first, flag):
+        flags = numpy.zeros(count, dtype=numpy.uint8)
+        flags[[first, -1]] = flag
+        array = numpy_to_vtk(flags, deep=True)
+        array.SetName("vtkGhostType")
+        data.AddArray(array)
+
+    def test_surfaces_from_labels(self):
+        """As those that were made with the mesh: the same facets, sides and numbers, in another order."""
+        for mesh, surfaces, size, formats in self.both():
+            self.convert(mesh, "--plc", "made" + surfaces)
+            first, second = self.described(surfaces), self.described("made" + surfaces)
+            self.assertEqual(first.keys(), second.keys())
+            for facet, (is_even, values) in first.items():
+                self.assertEqual(second[facet][0], is_even)
+                numpy.testing.assert_allclose(second[facet][1], values, rtol=1e-9, atol=1e-12)
+            for extension in formats:
+                self.convert(mesh, "--interfaces", surfaces, "--output", "a" + extension)
+                self.convert(mesh, "--output", "b" + extension)
+                sizes = [(self.folder / (one + extension)).stat().st_size for one in "ab"]
+                self.assertLess(abs(sizes[0] - sizes[1]), 0.01 * sizes[0], extension)
+        self.convert("m.vtu", "--plc", "made.stl")
+        self.assertIn("label_7__label_3", (self.folder / "b.mesh").read_text() + (self.folder / "b.msh").read_text())
+
+    def described(self, name):
+        """Of each facet, named by its points: whether their order is even, and the values of all arrays, also of its points."""
+        is_surface = name.endswith(".vtp")
+        data = self.load(name)
+        size = 3 if is_surface else 4
+        cells = vtk_to_numpy((data.GetPolys() if is_surface else data.GetCells()).GetConnectivityArray()).reshape(-1, size)
+        ids = vtk_to_numpy(data.GetPointData().GetArray("PointIds"))[cells]
+        names = sorted(data.GetCellData().GetArrayName(i) for i in range(data.GetCellData().GetNumberOfArrays()))
+        values = numpy.column_stack([vtk_to_numpy(data.GetCellData().GetArray(one)) for one in names])
+        at_points = [vtk_to_numpy(data.GetPoints().GetData())]
+        at_points += [vtk_to_numpy(data.GetPointData().GetArray(one)) for one in ("Time", "BoundaryVelocity") if not is_surface]
+        at_points = numpy.column_stack(at_points)
+        facets = {}
+        for facet, points, value in zip(ids, cells, values):
+            order = numpy.argsort(facet)
+            is_even = numpy.linalg.det(numpy.eye(size)[order]) > 0
+            facets[tuple(facet[order])] = is_even, numpy.concatenate([value, at_points[points[order]].ravel()])
+        return facets
 
 
 class SavedImage(MeshTestCase):
@@ -314,8 +481,8 @@ class Files(MeshTestCase):
 class Uncompressed(MeshTestCase):
     def test_bytes(self):
         self.make("--uncompressed")
-        for name, reader in (("m.vtu", vtkXMLUnstructuredGridReader), ("i.vtp", vtkXMLPolyDataReader)):
-            raw, plain = (self.folder / name).read_bytes(), self.load(name, reader)
+        for name in ("m.vtu", "i.vtp"):
+            raw, plain = (self.folder / name).read_bytes(), self.load(name)
             head = raw[:raw.index(b">")]
             self.assertIn(b'header_type="UInt64"', head)
             self.assertNotIn(b"compressor", head)

@@ -400,7 +400,7 @@ class Files(unittest.TestCase):
     def test_no_mesh(self):
         mesh = voxplex.mesh(self.image, 2.0)
         mesh.points[3] = numpy.nan
-        with self.assertRaisesRegex(voxplex.FileError, "point 3 has coordinates that are not finite"):
+        with self.assertRaisesRegex(voxplex.FileError, "Point 3 of the mesh is not finite"):
             mesh.write(self.folder / "mesh.inp")
 
     def test_full_temporary_folder(self):

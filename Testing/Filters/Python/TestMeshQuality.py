@@ -209,7 +209,7 @@ class Errors(unittest.TestCase):
     def test_mesh(self):
         case = Case()
         case.labels.SetValue(4, 0)
-        self.check_refused(case, "Cell 4 of the mesh has the label 0")
+        self.check_refused(case, "with the label 0: 1, the first is cell 4.")
         case.labels.SetValue(4, 3)
         case.figures()
         self.assertEqual(case.filter.GetOutput().GetNumberOfCells(), 6)
