@@ -77,14 +77,20 @@ private:
   Clock::time_point Start = Clock::now();
 };
 
-/** So that nothing that is read is overwritten. */
-void ProtectInputs(const io::WholeFiles& files, const Parameters& p)
+/** So that nothing that is read is overwritten. @param input nothing before it is read: then by their names */
+void ProtectInputs(const io::WholeFiles& files, const Parameters& p, const MeshingInput& input)
 {
-  for (const std::string& path : { p.SizeImage, p.Reading.LabelTable, p.Mesh, p.MeshInterfaces })
+  std::vector<std::string> paths = p.Inputs;
+  paths.insert(paths.end(), { p.SizeImage, p.Reading.LabelTable, p.Mesh, p.MeshInterfaces });
+  for (vtkSegmentationReader* const reader : { input.Labels.Get(), input.Sizes.Get() })
   {
-    files.ForbidOverwriting(path);
+    if (reader)
+    {
+      const std::vector<std::string> read = reader->GetFilesRead();
+      paths.insert(paths.end(), read.begin(), read.end());
+    }
   }
-  for (const std::string& path : p.Inputs)
+  for (const std::string& path : paths)
   {
     files.ForbidOverwriting(path);
   }
@@ -96,7 +102,7 @@ void Announce(io::WholeFiles& files, const Parameters& p)
   AnnounceMesh(files, p.Output);
   AnnounceMesh(files, p.Interfaces);
   AnnounceFile(files, p.Statistics);
-  ProtectInputs(files, p);
+  ProtectInputs(files, p, {});
 }
 
 /** Of the image. Without one those that the user gives, or the first and the last of a mesh. */
@@ -129,7 +135,6 @@ std::optional<SliceFiles> AnnounceSlices(io::WholeFiles& files, const Parameters
   {
     AnnounceMesh(files, path);
   }
-  ProtectInputs(files, p);
   return slices;
 }
 
@@ -142,15 +147,14 @@ std::optional<SlabFiles> AnnounceSlabs(io::WholeFiles& files, const Parameters& 
   }
   SlabFiles slabs(p.Slabs, p.Output);
   slabs.AnnounceFirst(files);
-  ProtectInputs(files, p);
   return slabs;
 }
 
 void WriteSlabs(const MeshWithInterfaces& mesh, const SlabFiles& slabs, const Parameters& p,
-  io::WholeFiles& files)
+  const MeshingInput& input, io::WholeFiles& files)
 {
   slabs.AnnounceOthers(files, mesh.Mesh);
-  ProtectInputs(files, p);
+  ProtectInputs(files, p, input);
   slabs.Write(mesh.Mesh, mesh.Interfaces, files, p.Compress);
 }
 
@@ -455,8 +459,9 @@ void SaveImage(const Parameters& p)
 {
   io::WholeFiles files;
   AnnounceFile(files, p.SavedImage);
-  ProtectInputs(files, p);
+  ProtectInputs(files, p, {});
   MeshingInput input = Read(p);
+  ProtectInputs(files, p, input);
   RepairImage(p, input);
   if (!p.SavedImage.empty())
   {
@@ -496,7 +501,7 @@ nlohmann::ordered_json MeasureMesh(
 }
 
 /** All files that hold the mesh or a part of it. */
-void WriteFiles(const Parameters& p, const MeshWithInterfaces& mesh,
+void WriteFiles(const Parameters& p, const MeshingInput& input, const MeshWithInterfaces& mesh,
   const std::optional<SliceFiles>& slices, const std::optional<SlabFiles>& slabs,
   io::WholeFiles& files)
 {
@@ -510,7 +515,7 @@ void WriteFiles(const Parameters& p, const MeshWithInterfaces& mesh,
   }
   if (slabs)
   {
-    WriteSlabs(mesh, *slabs, p, files);
+    WriteSlabs(mesh, *slabs, p, input, files);
   }
 }
 
@@ -550,10 +555,11 @@ void Run(const Parameters& p)
   CheckDimension(p, dimension);
   const std::optional<SliceFiles> slices = AnnounceSlices(files, p, input, mesh);
   const std::optional<SlabFiles> slabs = AnnounceSlabs(files, p);
+  ProtectInputs(files, p, input);
   const Filter filter = mesh.Mesh ? Filter() : MakeMesh(p, input, mesh);
 
   const Stopwatch writing;
-  WriteFiles(p, mesh, slices, slabs, files);
+  WriteFiles(p, input, mesh, slices, slabs, files);
   times.Write = writing.Seconds();
   nlohmann::ordered_json report = Report(p, input, mesh, filter, times, names);
   RepairReport repair;

@@ -209,6 +209,7 @@ std::optional<ImageAnswer> ReadMasks(const std::vector<std::string>& paths,
     masks.CheckOneOrigin();
   }
   FileWarnings warnings;
+  std::vector<std::string> files = paths;
   for (const std::string& path : paths)
   {
     ImageAnswer answer = ReadWithPlace(request, path);
@@ -219,12 +220,15 @@ std::optional<ImageAnswer> ReadMasks(const std::vector<std::string>& paths,
         { return IsOf(OfPlace, warning) || IsOf(OfSpacing, warning); });
     }
     warnings.Add(path, answer.Warnings);
+    files.insert(files.end(), answer.Files.begin(), answer.Files.end());
     if (!masks.Add({ NameOf(path), std::nullopt }, std::move(answer.Image), shown(path)))
     {
       return std::nullopt;
     }
   }
-  return masks.Finish(request.Rule, warnings.Lines());
+  ImageAnswer all = masks.Finish(request.Rule, warnings.Lines());
+  all.Files = std::move(files);
+  return all;
 }
 
 } // namespace

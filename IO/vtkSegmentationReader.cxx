@@ -65,6 +65,7 @@ struct vtkSegmentationReader::Internals
   ScalarImage Image; ///< without voxels as long as nothing was read
   LabelTable Labels;
   std::string LabelSource;
+  std::vector<std::string> Files;
   std::vector<std::string> Warnings;
   vtkTimeStamp ReadTime;
 };
@@ -180,6 +181,13 @@ const std::string& vtkSegmentationReader::GetLabelTableSource() const
   return this->Private->LabelSource;
 }
 
+std::vector<std::string> vtkSegmentationReader::GetFilesRead() const
+{
+  std::vector<std::string> files = this->Private->Files;
+  files.insert(files.end(), { this->Private->Path, this->Private->LabelSource });
+  return files;
+}
+
 int vtkSegmentationReader::GetNumberOfWarnings() const
 {
   return static_cast<int>(this->Private->Warnings.size());
@@ -230,6 +238,7 @@ bool vtkSegmentationReader::Read()
     data.Image = std::move(answer.Image);
     data.Labels = std::move(answer.Labels);
     data.Warnings = std::move(answer.Warnings);
+    data.Files = std::move(answer.Files);
     if (!this->FrameTimes.empty())
     {
       SetTimes(data.Image, this->FrameTimes, data.Path);

@@ -197,6 +197,9 @@ public:
   /** The file that the names of labels are from, which may be the image (the first of masks); empty if there are none. */
   const std::string& GetLabelTableSource() const;
 
+  /** All files that voxels and names were read from: of a folder its images, and what headers name. */
+  std::vector<std::string> GetFilesRead() const;
+
   /** Why the last execution failed; empty if it did not. */
   const std::string& GetErrorMessage() const { return this->ErrorMessage; }
 

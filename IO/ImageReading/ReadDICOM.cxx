@@ -251,6 +251,7 @@ ScalarImage ReadVolume(Volume& volume, Reading& reading)
   const std::size_t bytesOfSlice =
     static_cast<std::size_t>(volume.Format.Pixels()) * SizeOf(image.Type);
   image.Scalars = reading.Allocate(bytesOfSlice * volume.Slices.size());
+  reading.Files = volume.Files;
   auto* voxels = static_cast<std::byte*>(image.Scalars.get());
 
   const bool isFolder = volume.Files.size() > 1;

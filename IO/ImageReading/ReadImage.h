@@ -37,6 +37,8 @@ struct ImageAnswer
   LabelTable Labels; ///< names and colours that the file has itself
   std::vector<std::string>
     Warnings; ///< what was odd but could be read, one line each, with the name of the image
+  std::vector<std::string>
+    Files; ///< that were read, if they are others than those that were asked for
 };
 
 /**

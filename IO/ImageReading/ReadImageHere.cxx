@@ -169,7 +169,7 @@ void WarnOfPlace(Reading& reading)
 ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& allocate)
 {
   const std::string start = "cannot read '" + request.Path + "': ";
-  Reading reading{ allocate, request.DataFilesAnywhere, request.Rule, request.MaskThreshold, {},
+  Reading reading{ allocate, request.DataFilesAnywhere, request.Rule, request.MaskThreshold, {}, {},
     {} };
   ImageAnswer answer;
   try
@@ -197,6 +197,7 @@ ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& all
     Refuse(start, "it is damaged (", error.what(), ")");
   }
   answer.Labels = std::move(reading.Labels);
+  answer.Files = std::move(reading.Files);
   for (const std::string& warning : reading.Warnings)
   {
     answer.Warnings.push_back(request.Path + ": " + warning);

@@ -48,6 +48,9 @@ struct Reading
 
   /** Names and colours of labels, where the file has them. */
   LabelTable Labels;
+
+  /** That voxels were read from. */
+  std::vector<std::string> Files;
 };
 
 ///@{

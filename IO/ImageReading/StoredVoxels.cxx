@@ -284,6 +284,7 @@ void ReadVoxels(const StoredVoxels& stored, ScalarImage& image, Reading& reading
   const std::size_t bytes = voxels * SizeOf(image.Type);
   const std::size_t part = bytes / stored.Files.size();
   image.Scalars = reading.Allocate(bytes);
+  reading.Files = stored.Files;
   auto* to = static_cast<std::byte*>(image.Scalars.get());
   for (const std::string& path : stored.Files)
   {

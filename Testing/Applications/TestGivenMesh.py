@@ -361,6 +361,37 @@ class SavedImage(MeshTestCase):
         self.assert_refused(2, "--input is missing", "--save-image", "x.nrrd")
         self.assert_refused(1, "it is the input", "--input", self.input, "--save-image", self.input)
 
+    def test_files_that_are_read(self):
+        """Those of a folder, and those that a header names, stay as they are, whatever is to be written there."""
+        voxels = images.two_labels(14, 5.0)
+        for folder in ("masks", "data"):
+            (self.folder / folder).mkdir()
+        masks = [images.write_nrrd(self.folder / "masks" / ("%d.nrrd" % label), (voxels == label).astype(numpy.uint8))
+                 for label in (3, 7)]
+        (self.folder / "masks" / "linked.nrrd").symlink_to(images.write_nrrd(self.folder / "away.nrrd", (voxels == 0).astype(numpy.uint8)))
+        names = ["data/0%d.nrrd" % k for k in range(len(voxels))]
+        for name, plane in zip(names, voxels):
+            (self.folder / name).write_bytes(plane.tobytes())
+        (self.folder / "data" / "all.vtk").write_bytes(voxels.tobytes())
+        sizes = " ".join(map(str, voxels.shape[::-1]))
+        head = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: %s\nencoding: raw\nendian: little\nspacings: 1 1 1\n" % sizes
+        for name, text in (("list", "LIST\n" + "\n".join(names)), ("pattern", "data/0%%d.nrrd 0 %d 1" % (len(voxels) - 1)),
+                           ("one", "data/all.vtk")):
+            (self.folder / (name + ".nhdr")).write_text(head + "data file: " + text + "\n")
+        (self.folder / "meta.mhd").write_text("ObjectType = Image\nNDims = 3\nDimSize = %s\nElementType = MET_UCHAR\nElementSpacing = 1 1 1\n"
+                                              "ElementDataFile = data/all.vtk\n" % sizes)
+        for read, written, option in (
+                (("--input", "masks"), masks[1], "--save-image"), (("--input", "masks"), self.folder / "away.nrrd", "--save-image"),
+                (("--input", *masks), masks[1], "--save-image"), (("--input", "list.nhdr"), names[3], "--save-image"),
+                (("--input", "pattern.nhdr"), names[-1], "--save-image"), (("--input", "one.nhdr"), "data/all.vtk", "--output"),
+                (("--input", "meta.mhd"), "data/all.vtk", "--output"), (("--input", "meta.mhd"), "data/all.vtk", "--plc"),
+                (("--input", self.input, "--size-image", "one.nhdr"), "data/all.vtk", "--output")):
+            before = (self.folder / written).read_bytes()
+            with self.subTest(read=read, option=option):
+                self.assert_refused(1, "cannot write '%s': it is the input" % written, *read, option, written)
+                self.assertEqual((self.folder / written).read_bytes(), before)
+        self.run_program("--input", "masks", "--save-image", "masks/both.nrrd")  # nothing was there
+
 
 class Files(MeshTestCase):
     def setUp(self):

@@ -34,6 +34,7 @@ AnswerMessage MakeAnswer()
   message.Answer.Labels.Entries[7] = { "Fémur \"left\"", std::array<double, 3>{ 0.1, 0.2, 1.0 } };
   message.Answer.Labels.Entries[1LL << 40] = { "far", std::nullopt };
   message.Answer.Warnings = { "odd\nlines", "not UTF-8: \xff" };
+  message.Answer.Files = { "voxels.raw" };
   return message;
 }
 
@@ -67,6 +68,7 @@ void RoundTrip()
       !labels.at(1LL << 40).Color,
     "labels");
   Expect(after.Answer.Warnings.size() == 2 && after.Answer.Warnings[0] == "odd\nlines", "warnings");
+  Expect(after.Answer.Files == std::vector<std::string>{ "voxels.raw" }, "files");
 
   AnswerMessage refusal;
   refusal.Error = "cannot read 'x\xff': it is damaged";
