@@ -249,16 +249,22 @@ std::string Named(std::int64_t label, const std::string& name)
   return "label " + std::to_string(label) + (name.empty() ? "" : " (" + name + ")");
 }
 
-/** What the user would not expect; empty if there is nothing. @param thickness of a shell */
-std::string WarningOf(const RepairRow& row, const std::string& name, double thickness)
+/** What could not be done; empty if there is nothing. @param length of the shell or thickness */
+std::string WarningOf(const RepairRow& row, const std::string& name, double length)
 {
+  if (row.What == "min-thickness" && row.LeftOut > 0)
+  {
+    return "{min-thickness}: " + Named(row.Label, name) + " stays thinner than " +
+      voxplex::NumberText(length) + ", because labels that have to stay keep " +
+      std::to_string(row.LeftOut) + (row.LeftOut == 1 ? " voxel." : " voxels.");
+  }
   if (row.TouchingFaces == 0)
   {
     return "";
   }
   return "{shell}: " + Named(row.Label, name) + " still touches what its shell keeps away, at " +
     std::to_string(row.TouchingFaces) + " faces of voxels, because " +
-    (std::abs(thickness) < row.ClosedFrom
+    (std::abs(length) < row.ClosedFrom
         ? "the shell is thinner than half a voxel. From " + voxplex::NumberText(row.ClosedFrom) +
           " on it is closed."
         : "a gap of one voxel cannot hold two shells. Smaller voxels can.");
@@ -464,8 +470,10 @@ int vtkSegmentationRepair::RequestData(
   {
     for (const RepairRow& row : this->Private->Rows)
     {
-      const std::string warning = WarningOf(
-        row, this->Private->NameOf(row.Label), voxplex::SizeOf(this->Private->Shells, row.Label));
+      const auto& lengths =
+        row.What == "shell" ? this->Private->Shells : this->Private->Thicknesses;
+      const std::string warning =
+        WarningOf(row, this->Private->NameOf(row.Label), voxplex::SizeOf(lengths, row.Label));
       if (!warning.empty())
       {
         this->Private->Warnings.push_back(voxplex::InTermsOf(words, warning));

@@ -27,10 +27,12 @@
  * label, but a string that ends there is a spike.
  *
  * @par MinimumThickness
- * Where a label is thinner than a length, it is thickened to at least that, on both sides; oblique sheets to half a voxel
- * less or more. A place is thin if it is farther than the length from where a ball of this diameter fits into the label.
- * Balls of this diameter around the middle of thin places are added. They replace background and other labels, but no label
- * that has a smallest thickness itself, and no whole component.
+ * Where a label is thinner than a length, it is thickened to at least that; oblique sheets to half a voxel less or more. A
+ * place is thin if it is farther than the length from where a ball of this diameter fits into the label. Balls of this diameter
+ * around the middle of thin places are added. They replace background and other labels, but no label that has a smallest
+ * thickness itself, and no whole component. A ball that would reach one of these moves away from it, by up to 3/4 of the
+ * length, so that the free side grows. Where there is no room the label stays thinner: a warning has the number of voxels
+ * that it lacks. What is beyond the border of the image counts as the label.
  *
  * @par Shell
  * A positive thickness adds a new label around a label, in background. A voxel belongs to it if its centre is in an
@@ -56,7 +58,9 @@
  * voxels is an error, but not in a series.
  *
  * Time is linear in the voxels, for each MinimumThickness and Shell in those of the label's bounding box; memory is about 10
- * bytes a voxel beside both images. If AbortExecute is set, the filter stops and leaves the outputs empty.
+ * bytes a voxel beside both images, 20 with shells. MinimumThickness needs 80 more for each voxel of a block; along each axis
+ * this has 11 times the length, or 64 voxels and 6 times the length, or the whole image. If AbortExecute is set, the filter
+ * stops and leaves the outputs empty.
  */
 #ifndef vtkSegmentationRepair_h
 #define vtkSegmentationRepair_h

@@ -432,17 +432,17 @@ std::vector<RepairRow> SegmentationRepair::RemoveSpikes()
 }
 
 //------------------------------------------------------------------------------------------------
-/** The voxels that a label lacks. @param isKept of each number: takes nothing from it */
-SegmentationRepair::Positions SegmentationRepair::FindThickening(
-  LabelId id, double length, const std::vector<bool>& isKept) const
+/** What a label lacks. @param isBlocked of each voxel: has to stay as it is */
+SegmentationRepair::Thickening SegmentationRepair::FindThickening(
+  LabelId id, double length, const std::vector<bool>& isBlocked) const
 {
-  Positions missing;
+  Thickening found;
   const VoxelIndex& n = this->Grid.Dimensions;
-  const VoxelBox box = this->BoxOf(id);
   const double margin =
-    2.0 * length + 2.0 * *std::max_element(this->Spacing.begin(), this->Spacing.end());
+    2.75 * length + 2.0 * *std::max_element(this->Spacing.begin(), this->Spacing.end());
   const Point<3> half{ this->Spacing[0] / 2.0, this->Spacing[1] / 2.0, this->Spacing[2] / 2.0 };
-  box.Grown(length, this->Spacing, n)
+  this->BoxOf(id)
+    .Grown(1.25 * length, this->Spacing, n)
     .ForEachBlock(margin, this->Spacing,
       [&](const VoxelBox& block)
       {
@@ -450,58 +450,61 @@ SegmentationRepair::Positions SegmentationRepair::FindThickening(
         const VoxelBox around = block.Grown(margin, this->Spacing, n);
         const VoxelIndex size = around.Size();
         const HalfVoxels halves{ { 2 * size[0], 2 * size[1], 2 * size[2] }, half, this->Threads };
-        std::vector<unsigned char> outside(halves.Count(), 0);
+        BitMask<3> outside(halves.Size);
+        BitMask<3> blocked(halves.Size);
         std::int64_t voxels = 0;
+        bool isAnyBlocked = false;
         around.ForEachVoxel(
           [&](const VoxelIndex& voxel)
           {
-            const bool isLabel = this->Ids[Unsigned(this->PositionOf(voxel))] == id;
+            const std::int64_t position = this->PositionOf(voxel);
+            const bool isLabel = this->Ids[Unsigned(position)] == id;
+            const bool isOne = !isLabel && isBlocked[Unsigned(position)];
             voxels += isLabel ? 1 : 0;
-            for (unsigned corner = 0; corner < 8; ++corner)
-            {
-              outside[halves.At(Minus(voxel, around.First), corner)] = isLabel ? 0 : 1;
-            }
+            isAnyBlocked = isAnyBlocked || isOne;
+            HalfVoxels::ForEachOf(Minus(voxel, around.First),
+              [&](const VoxelIndex& at)
+              {
+                isLabel ? void() : outside.Set(at);
+                isOne ? blocked.Set(at) : void();
+              });
           });
         if (voxels == 0 || voxels == size[0] * size[1] * size[2])
         {
           return;
         }
-        const std::vector<unsigned char> ridges = halves.ThinRidges(outside, length / 2.0);
-        if (ridges.empty())
+        const VoxelIndex first = Minus(block.First, around.First);
+        const VoxelIndex last = Minus(block.Last, around.First);
+        const auto balls = halves.Thickened(outside, isAnyBlocked ? &blocked : nullptr,
+          length / 2.0, { Plus(first, first), Plus(Plus(last, last), { 1, 1, 1 }) });
+        if (!balls)
         {
           return;
         }
-        const FeatureTransform<3> distances = halves.DistancesTo(ridges);
         block.ForEachVoxel(
           [&](const VoxelIndex& voxel)
           {
             const std::int64_t position = this->PositionOf(voxel);
-            const LabelId own = this->Ids[Unsigned(position)];
-            int near = 0;
-            for (unsigned corner = 0; corner < 8 && own != id && !isKept[own]; ++corner)
+            int inside = 0;
+            HalfVoxels::ForEachOf(Minus(voxel, around.First),
+              [&](const VoxelIndex& at) { inside += balls->Test(at) ? 1 : 0; });
+            if (inside >= 4 && this->Ids[Unsigned(position)] != id)
             {
-              near += distances.Distance(halves.At(Minus(voxel, around.First), corner)) <
-                  length / 2.0 * (1.0 - DistanceRounding)
-                ? 1
-                : 0;
-            }
-            if (near >= 4)
-            {
-              missing.push_back(position);
+              (isBlocked[Unsigned(position)] ? found.Blocked : found.Missing).push_back(position);
             }
           });
       });
-  std::sort(missing.begin(), missing.end());
-  return missing;
+  std::sort(found.Missing.begin(), found.Missing.end());
+  return found;
 }
 
-/** Leaves out the voxels of components that would lose all of theirs. */
-void SegmentationRepair::LeaveComponents(Positions& taken) const
+/** Leaves out the voxels of components that would lose all of theirs, and returns these. */
+SegmentationRepair::Positions SegmentationRepair::LeaveComponents(Positions& taken) const
 {
   if (std::all_of(taken.begin(), taken.end(),
         [this](std::int64_t voxel) { return this->Ids[Unsigned(voxel)] == 0; }))
   {
-    return;
+    return {};
   }
   const LabelImage<3> image = this->ImageOf(this->Ids);
   const Components<3> components(image, this->Threads);
@@ -512,17 +515,23 @@ void SegmentationRepair::LeaveComponents(Positions& taken) const
   {
     ++losses[componentOf(voxel)];
   }
-  std::erase_if(taken,
+  const auto kept = std::stable_partition(taken.begin(), taken.end(),
     [&](std::int64_t voxel)
     {
       const std::uint32_t component = componentOf(voxel);
-      return component != Components<3>::None &&
-        losses[component] == components.All()[component].Voxels;
+      return component == Components<3>::None ||
+        losses[component] < components.All()[component].Voxels;
     });
+  const Positions left(kept, taken.end());
+  taken.erase(kept, taken.end());
+  return left;
 }
 
-/** Leaves out the voxels, which are sorted, that no faces connect to the label: they are beyond something else. */
-void SegmentationRepair::LeaveUnconnected(Positions& taken, LabelId id) const
+/**
+ * Leaves out the voxels, which are sorted, that no faces connect to the label: they are beyond something else.
+ * @return their number
+ */
+std::int64_t SegmentationRepair::LeaveUnconnected(Positions& taken, LabelId id) const
 {
   std::vector<char> isConnected(taken.size(), 0);
   std::vector<std::size_t> next;
@@ -560,7 +569,8 @@ void SegmentationRepair::LeaveUnconnected(Positions& taken, LabelId id) const
       });
   }
   std::size_t at = 0;
-  std::erase_if(taken, [&](std::int64_t) { return isConnected[at++] == 0; });
+  return static_cast<std::int64_t>(
+    std::erase_if(taken, [&](std::int64_t) { return isConnected[at++] == 0; }));
 }
 
 /** Gives voxels another number, and says where they are. */
@@ -584,6 +594,41 @@ RepairRow SegmentationRepair::Change(
   return rows.ByLabel.at(label);
 }
 
+/** Gives a label its thickness. @param isBlocked see FindThickening(); gets components that would be lost */
+RepairRow SegmentationRepair::ThickenOne(
+  std::int64_t label, double length, std::vector<bool>& isBlocked)
+{
+  const LabelId id = this->IdOf(label);
+  if (id == 0)
+  {
+    return { .What = "min-thickness", .Label = label };
+  }
+  const auto leave = [&](Positions& missing)
+  {
+    const Positions components = this->LeaveComponents(missing);
+    for (const std::int64_t voxel : components)
+    {
+      isBlocked[Unsigned(voxel)] = true;
+    }
+    return !components.empty();
+  };
+  Thickening found = this->FindThickening(id, length, isBlocked);
+  bool isToMeasure = !found.Blocked.empty();
+  for (int tries = 0; leave(found.Missing) && tries < 2; ++tries)
+  {
+    isToMeasure = true;
+    found = this->FindThickening(id, length, isBlocked);
+  }
+  isToMeasure = this->LeaveUnconnected(found.Missing, id) > 0 || isToMeasure;
+  RepairRow row = this->Change("min-thickness", label, found.Missing, id);
+  if (isToMeasure)
+  {
+    found = this->FindThickening(id, length, isBlocked);
+    row.LeftOut = std::ssize(found.Blocked) + this->LeaveUnconnected(found.Missing, id);
+  }
+  return row;
+}
+
 std::vector<RepairRow> SegmentationRepair::Thicken(const std::map<std::int64_t, double>& lengths)
 {
   std::vector<bool> isKept(this->Values.size(), false);
@@ -595,18 +640,10 @@ std::vector<RepairRow> SegmentationRepair::Thicken(const std::map<std::int64_t, 
   std::vector<RepairRow> rows;
   for (const auto& [label, length] : lengths)
   {
-    const LabelId id = this->IdOf(label);
-    Positions missing;
-    std::int64_t wanted = 0;
-    if (id != 0)
-    {
-      missing = this->FindThickening(id, length, isKept);
-      wanted = std::ssize(missing);
-      this->LeaveComponents(missing);
-      this->LeaveUnconnected(missing, id);
-    }
-    rows.push_back(this->Change("min-thickness", label, missing, id));
-    rows.back().LeftOut = wanted - std::ssize(missing);
+    std::vector<bool> isBlocked(this->Ids.size());
+    std::transform(this->Ids.begin(), this->Ids.end(), isBlocked.begin(),
+      [&isKept](LabelId id) -> bool { return isKept[id]; });
+    rows.push_back(this->ThickenOne(label, length, isBlocked));
   }
   return rows;
 }

@@ -38,7 +38,7 @@ struct RepairRow
   std::int64_t NewLabel = 0; ///< of a shell
   bool IsAll = false;        ///< whether the shell took all of the label
   bool IsCut = false;        ///< whether a shell around the label reaches the border of the image
-  std::int64_t LeftOut = 0;  ///< voxels of a thickness that others keep
+  std::int64_t LeftOut = 0;  ///< voxels of a shell or thickness that others keep
   std::int64_t TouchingFaces = 0; ///< between a label and what its shell should keep from it
   double ClosedFrom = 0.0;        ///< the thickness from which on voxels can hold a closed shell
 };
@@ -102,6 +102,12 @@ private:
     VoxelBox Box = VoxelBox::Empty();
   };
 
+  struct Thickening
+  {
+    Positions Missing;
+    Positions Blocked; ///< would belong to it, but have to stay
+  };
+
   struct Shell
   {
     std::int64_t Label;
@@ -136,9 +142,10 @@ private:
   std::vector<Positions> FindNecks() const;
   std::optional<LabelId> MostFrequentAround(
     std::int64_t position, const std::vector<bool>& removed) const;
-  Positions FindThickening(LabelId id, double length, const std::vector<bool>& isKept) const;
-  void LeaveComponents(Positions& taken) const;
-  void LeaveUnconnected(Positions& taken, LabelId id) const;
+  Thickening FindThickening(LabelId id, double length, const std::vector<bool>& isBlocked) const;
+  Positions LeaveComponents(Positions& taken) const;
+  std::int64_t LeaveUnconnected(Positions& taken, LabelId id) const;
+  RepairRow ThickenOne(std::int64_t label, double length, std::vector<bool>& isBlocked);
   template <typename Visit>
   void ForEachInReach(const Shell& shell, const Visit& visit) const;
   RepairRow DescribeShell(const Shell& shell, const std::vector<float>& distances);

@@ -15,22 +15,33 @@ namespace
  */
 constexpr double RidgeSlope = 0.15;
 
-} // namespace
-
-FeatureTransform<3> HalfVoxels::DistancesTo(const std::vector<unsigned char>& sites) const
+/** Whether a mask has something between two half voxels. */
+bool IsBetween(const BitMask<3>& mask, const VoxelIndex& from, const VoxelIndex& to)
 {
-  BitMask<3> mask(this->Size);
-  VoxelBox{ {}, Minus(this->Size, { 1, 1, 1 }) }.ForEachVoxel(
-    [&](const VoxelIndex& half)
+  const VoxelIndex way = Minus(to, from);
+  const std::int64_t steps = std::max({ std::abs(way[0]), std::abs(way[1]), std::abs(way[2]) });
+  bool isOne = false;
+  for (std::int64_t step = 1; step < steps && !isOne; ++step)
+  {
+    VoxelIndex at = from;
+    for (std::size_t a = 0; a < 3; ++a)
     {
-      if (sites[this->At(half)] != 0)
-      {
-        mask.Set(half);
-      }
-    });
-  return { mask, this->Spacing, { 1, 1, 1 }, this->Threads };
+      at[a] += std::lround(static_cast<double>(way[a] * step) / static_cast<double>(steps));
+    }
+    isOne = mask.Test(at);
+  }
+  return isOne;
 }
 
+} // namespace
+
+/** From the middle of each half voxel to that of the nearest site. */
+FeatureTransform<3> HalfVoxels::DistancesTo(const BitMask<3>& sites) const
+{
+  return { sites, this->Spacing, { 1, 1, 1 }, this->Threads };
+}
+
+/** Whether distances grow slowly around a half voxel. */
 bool HalfVoxels::IsRidge(const VoxelIndex& half, const FeatureTransform<3>& distances) const
 {
   const double own = distances.Distance(this->At(half));
@@ -55,43 +66,97 @@ bool HalfVoxels::IsRidge(const VoxelIndex& half, const FeatureTransform<3>& dist
   return true;
 }
 
-std::vector<unsigned char> HalfVoxels::ThinRidges(
-  const std::vector<unsigned char>& outside, double radius) const
+/**
+ * The middle of thin places: ridges where balls of the radius do not fit, and farther than their diameter from where they
+ * do. Nearer are corners, and bumps of thick parts.
+ */
+std::vector<VoxelIndex> HalfVoxels::ThinRidges(const BitMask<3>& outside, double radius) const
 {
-  const FeatureTransform<3> distances = this->DistancesTo(outside);
-  const double fits = radius * (1.0 - DistanceRounding);
-  std::vector<unsigned char> ridges(this->Count(), 0);
-  std::vector<unsigned char> fitting(this->Count(), 0);
-  bool isAnyRidge = false;
+  const VoxelBox all{ {}, Minus(this->Size, { 1, 1, 1 }) };
+  std::vector<VoxelIndex> ridges;
+  BitMask<3> fitting(this->Size);
   bool isAnyFitting = false;
-  VoxelIndex half;
-  for (half[2] = 0; half[2] < this->Size[2]; ++half[2])
   {
-    for (half[1] = 0; half[1] < this->Size[1]; ++half[1])
-    {
-      for (half[0] = 0; half[0] < this->Size[0]; ++half[0])
+    const FeatureTransform<3> distances = this->DistancesTo(outside);
+    all.ForEachVoxel(
+      [&](const VoxelIndex& half)
       {
-        const std::size_t at = this->At(half);
-        fitting[at] = distances.Distance(at) >= fits ? 1 : 0;
-        ridges[at] = outside[at] == 0 && fitting[at] == 0 && this->IsRidge(half, distances);
-        isAnyRidge = isAnyRidge || ridges[at] != 0;
-        isAnyFitting = isAnyFitting || fitting[at] != 0;
-      }
-    }
+        if (distances.Distance(this->At(half)) >= radius * (1.0 - DistanceRounding))
+        {
+          fitting.Set(half);
+          isAnyFitting = true;
+        }
+        else if (!outside.Test(half) && this->IsRidge(half, distances))
+        {
+          ridges.push_back(half);
+        }
+      });
   }
-  if (!isAnyRidge)
+  if (isAnyFitting && !ridges.empty())
+  {
+    const FeatureTransform<3> away = this->DistancesTo(fitting);
+    std::erase_if(ridges,
+      [&](const VoxelIndex& half) { return away.Distance(this->At(half)) <= 2.0 * radius; });
+  }
+  return ridges;
+}
+
+void HalfVoxels::MoveCentres(
+  std::vector<VoxelIndex>& centres, const BitMask<3>& blocked, double radius) const
+{
+  BitMask<3> isFree(this->Size);
+  {
+    const FeatureTransform<3> distances = this->DistancesTo(blocked);
+    const auto fits = [&](const VoxelIndex& half)
+    { return distances.Distance(this->At(half)) >= radius * (1.0 - DistanceRounding); };
+    if (std::all_of(centres.begin(), centres.end(), fits))
+    {
+      return;
+    }
+    VoxelBox{ {}, Minus(this->Size, { 1, 1, 1 }) }.ForEachVoxel(
+      [&](const VoxelIndex& half) { fits(half) ? isFree.Set(half) : void(); });
+  }
+  const FeatureTransform<3> nearest = this->DistancesTo(isFree);
+  for (VoxelIndex& centre : centres)
+  {
+    const std::size_t at = this->At(centre);
+    if (nearest.Distance(at) > FarthestMove * radius)
+    {
+      continue;
+    }
+    const VoxelIndex to = nearest.IndexOf(nearest.Site(at));
+    centre = IsBetween(blocked, centre, to) ? centre : to;
+  }
+}
+
+std::optional<BitMask<3>> HalfVoxels::Thickened(
+  const BitMask<3>& outside, const BitMask<3>* blocked, double radius, const VoxelBox& box) const
+{
+  std::vector<VoxelIndex> middle = this->ThinRidges(outside, radius);
+  if (middle.empty())
   {
     return {};
   }
-  if (isAnyFitting)
+  if (blocked)
   {
-    const FeatureTransform<3> away = this->DistancesTo(fitting);
-    for (std::size_t at = 0; at < ridges.size(); ++at)
-    {
-      ridges[at] = ridges[at] != 0 && away.Distance(at) > 2.0 * radius ? 1 : 0;
-    }
+    this->MoveCentres(middle, *blocked, radius);
   }
-  return std::count(ridges.begin(), ridges.end(), 1) == 0 ? std::vector<unsigned char>() : ridges;
+  BitMask<3> centres(this->Size);
+  std::for_each(middle.begin(), middle.end(), [&](const VoxelIndex& half) { centres.Set(half); });
+  const FeatureTransform<3> nearest = this->DistancesTo(centres);
+  std::optional<BitMask<3>> balls(this->Size);
+  box.ForEachVoxel(
+    [&](const VoxelIndex& half)
+    {
+      const std::size_t at = this->At(half);
+      if (nearest.Distance(at) < radius * (1.0 - DistanceRounding) &&
+        (!blocked || blocked->Test(half) ||
+          !IsBetween(*blocked, half, nearest.IndexOf(nearest.Site(at)))))
+      {
+        balls->Set(half);
+      }
+    });
+  return balls;
 }
 
 } // namespace voxplex

@@ -4,6 +4,7 @@
 """vtkSegmentationRepair: phantoms whose answers are known, and distances of SciPy."""
 import itertools
 import json
+import math
 import unittest
 
 import numpy
@@ -270,6 +271,43 @@ class Thickness(Repair):
         self.assertEqual(list(found[9:12, 20, 10]), [1, 1, 2])
         self.assertEqual([(row["label"], row["voxels"] > 0) for row in rows], [(1, True), (2, False)])
 
+
+    def test_free_side(self):
+        """Where a label has to stay, the other side grows: another thickened one, or a component that would be lost."""
+        for axes in itertools.permutations(range(3)):
+            spacing = [(1.0, 1.0, 1.0), (1.0, 0.5, 2.0)][axes[0] == 2]
+            unit = spacing[2 - axes.index(0)]  # along the first axis of `labels`
+            for wanted in (1.01, 2, 3, 4.5, 6):
+                for lengths in ({1: wanted, 2: wanted}, {1: wanted}):
+                    labels = numpy.zeros((30, 24, 24), dtype=numpy.uint8)
+                    labels[14, 2:-2, 2:-2] = 1
+                    labels[15][(slice(2, -2) if 2 in lengths else slice(8, -8),) * 2] = 2
+                    repair = filter_of(voxplex.Image(labels.transpose(axes).copy(), spacing=spacing).to_vtk(),
+                                       MinimumThickness={label: length * unit for label, length in lengths.items()})
+                    repair.Update()
+                    found = array_of(repair.GetOutput(), labels.transpose(axes)).transpose(numpy.argsort(axes))
+                    self.assertEqual(numpy.flatnonzero(found[:, 12, 12] == 1).tolist(), list(range(15 - math.ceil(wanted), 15)))
+                    thickness = math.ceil(wanted) if 2 in lengths else 1
+                    self.assertEqual(numpy.flatnonzero(found[:, 12, 12] == 2).tolist(), list(range(15, 15 + thickness)))
+                    self.assertEqual(repair.GetNumberOfWarnings(), 0)
+                    self.assertNotIn("more", repair.GetReport())
+
+    def test_what_stays_thinner(self):
+        """Between labels that have to stay, and where the free side ends; the growth does not follow a crack."""
+        labels = numpy.zeros((20, 24, 60), dtype=numpy.uint8)
+        labels[2:10, :, 4:-4] = 1
+        labels[11:19, :, 4:-4] = 2
+        labels[10, :, 4:14] = 3
+        repair = filter_of(voxplex.Image(labels).to_vtk(), MinimumThickness={1: 1.0, 2: 1.0, 3: 4.0})
+        repair.Update()
+        found = array_of(repair.GetOutput(), labels)
+        self.assertFalse((found[10, :, 20:] == 3).any())
+        row = json.loads(repair.ToJSON())[-1]
+        self.assertGreater(row["left_out"], 100)
+        self.assertEqual(repair.GetNumberOfWarnings(), 1)
+        self.assertRegex(repair.GetWarning(0), f"label 3 stays thinner than 4, .* {row['left_out']} voxels")
+        self.assertIn(f", {row['left_out']} more would cross labels that have to stay", repair.GetReport())
+        self.assertEqual(repair.GetReportTable().GetColumnByName("LeftOut").GetValue(2), row["left_out"])
 
     def test_others_that_stay(self):
         """Neither pieces beyond a label that would lose all, nor beyond one that is thickened itself."""
