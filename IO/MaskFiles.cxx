@@ -3,14 +3,10 @@
 #include "MaskFiles.h"
 
 #include "FileError.h"
-#include "ImageReading/InputFile.h"
+#include "ImageReading/Readers.h"
 #include "ImageReading/Units.h"
 #include "MasksOnGrid.h"
 #include "Text.h"
-
-#include <vtkNew.h>
-#include <vtkSortFileNames.h>
-#include <vtkStringArray.h>
 
 #include <algorithm>
 #include <array>
@@ -53,39 +49,6 @@ std::string NameOf(const std::string& path)
   return length > 0 ? name.substr(0, name.size() - length) : file.stem().string();
 }
 
-/** Sorted, with the numbers in names as numbers. */
-std::vector<std::string> Sorted(const std::vector<std::string>& names)
-{
-  vtkNew<vtkStringArray> array;
-  for (const std::string& name : names)
-  {
-    array->InsertNextValue(name);
-  }
-  vtkNew<vtkSortFileNames> sort;
-  sort->NumericSortOn();
-  sort->SetInputFileNames(array);
-  std::vector<std::string> sorted;
-  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
-  {
-    sorted.push_back(sort->GetFileNames()->GetValue(i));
-  }
-  return sorted;
-}
-
-/** By the four letters that tell it, since nothing of a file is parsed in this process. */
-bool IsDICOMFile(const std::string& path)
-{
-  try
-  {
-    constexpr std::size_t preamble = 128;
-    return InputFile(path).Beginning(preamble + 4).find("DICM", preamble) == preamble;
-  }
-  catch (const FileError&) // what cannot be opened is no reason to take the folder for one of DICOM
-  {
-    return false;
-  }
-}
-
 /** The masks of a folder; none if a file is DICOM, or this is no folder. */
 std::vector<std::string> ListMasks(const std::string& folder, std::vector<std::string>& warnings)
 {
@@ -114,7 +77,7 @@ std::vector<std::string> ListMasks(const std::string& folder, std::vector<std::s
     }
   }
   std::string text;
-  for (const std::string& name : Sorted(others))
+  for (const std::string& name : SortByNumbers(others))
   {
     text += (text.empty() ? "" : ", ") + name;
   }
@@ -122,7 +85,7 @@ std::vector<std::string> ListMasks(const std::string& folder, std::vector<std::s
   {
     warnings.push_back(folder + ": left out what is no image: " + text);
   }
-  return Sorted(masks);
+  return SortByNumbers(masks);
 }
 
 // --- Reading -----------------------------------------------------------------------------------------

@@ -145,7 +145,10 @@ ScalarImage ReadFileOrFolder(const ImageRequest& request, Reading& reading)
         "it is a Zarr folder: open the array of one resolution in Python (zarr.open), and give it "
         "to voxplex.mesh() with its spacing");
     }
-    return ReadDICOMFolder(request.Path, request.Series, reading);
+    const std::vector<std::string> slices =
+      request.Series.empty() ? ListSlices(request.Path) : std::vector<std::string>();
+    return slices.empty() ? ReadDICOMFolder(request.Path, request.Series, reading)
+                          : ReadSlices(slices, reading);
   }
   RefuseIf(!fs::is_regular_file(status), "it is neither a regular file nor a folder");
   RefuseIf(

@@ -654,6 +654,23 @@ bool IsTIFF(const InputFile& file)
   return std::find(beginnings.begin(), beginnings.end(), file.Beginning(4)) != beginnings.end();
 }
 
+ScalarImage ReadTIFFSlice(const std::string& path, Reading& reading)
+{
+  const InputFile file(path);
+  RefuseIf(!IsTIFF(file), "it is no TIFF file, as its name says");
+  PageReader reader(file);
+  const TIFFPages pages = reader.List(reading.Warnings);
+  RefuseIf(pages.Count() > 1, "it has ", pages.Count(),
+    " pages, and files of a folder of slices have one each: if each is a mask, give the files one "
+    "by one");
+  ScalarImage image;
+  image.Type = reader.Type();
+  SetSizes(image, { pages.Width, pages.Length, 1 });
+  image.Scalars = reading.Allocate(reader.BytesOfPage());
+  reader.ReadInto({ static_cast<std::byte*>(image.Scalars.get()) }, pages);
+  return image;
+}
+
 ScalarImage ReadTIFF(const std::string& path, Reading& reading)
 {
   const InputFile file(path);

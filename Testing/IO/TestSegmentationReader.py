@@ -207,7 +207,7 @@ class Errors(FolderTestCase):
             (self.folder / "a.zarr" / name).write_text("{}")
             self.refused("it is a Zarr folder: open the array of one resolution in Python", self.folder / "a.zarr")
             (self.folder / "a.zarr" / name).unlink()
-        self.refused("the folder holds no DICOM images, and no files that are named as masks", self.folder / "texts")
+        self.refused("the folder holds no DICOM images, no slices .*, and no files that are named as masks", self.folder / "texts")
         self.refused("^no file name is set$", None)
         self.refused("^no file name is set$", "")
 

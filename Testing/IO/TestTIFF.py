@@ -13,6 +13,7 @@ import zlib
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
+import images
 from iotesting import FolderTestCase, warnings_of
 
 try:
@@ -554,6 +555,67 @@ class Descriptions(TIFFTestCase):
                     tifffile.imwrite(path, voxels, byteorder=order, **{"photometric": "minisblack", **options})
                     wanted = np.moveaxis(voxels, 0, 1) if "slices first" in name else voxels
                     self.check(path, wanted, warnings=warnings, **more)
+
+
+class Folders(TIFFTestCase):
+    """A file for each slice."""
+    ARRAY = labels("u2", (12, 12, 20))
+    TOLD = (r"a folder of slices, .*SetSpacing\(\)",)
+
+    def slices(self, array, name="s_%d.tif", **options):
+        for old in self.folder.iterdir():
+            old.unlink()
+        for n, page in enumerate(array):
+            write(self.folder / (name % n), page[None], **options)
+        return self.folder
+
+    def test_read(self):
+        """In the order of numbers, whatever else is there."""
+        for n, dtype in enumerate(DTYPES):
+            array = labels(dtype, (12, 12, 20))
+            options = dict(order="<>"[n % 2], big=n % 3 == 1, compression=list(COMPRESSIONS)[n % len(COMPRESSIONS)], tile=(16, 16) if n % 4 else None)
+            folder = self.slices(array, ("s_%d.tif", "s%04d.TIFF", "%d.tif", "scan2_%d_rec.tif")[n % 4], **options)
+            (folder / ".hidden.tif").write_bytes(b"x")
+            (folder / "scan.log").write_text("x")
+            self.check(folder, array, warnings=self.TOLD)
+        self.read(folder, Spacing=(0.01, 0.01, 0.02))
+        self.check(self.slices(self.ARRAY[::2], "%d.tif"), self.ARRAY[::2], warnings=self.TOLD)
+        steps = self.slices(self.ARRAY)
+        for n in range(1, 12, 2):
+            (steps / f"s_{n}.tif").unlink()
+        self.check(steps, self.ARRAY[::2], warnings=self.TOLD)
+        self.check(self.slices(self.ARRAY > 2), self.ARRAY > 2, warnings=self.TOLD, dtype="u1")
+        names = self.slices(self.ARRAY[:3], "x%d.tif")
+        for n, letter in enumerate("abc"):
+            (names / f"x{n}.tif").rename(names / f"{letter}.tif")
+        self.check(names, self.ARRAY[:3], warnings=self.TOLD)
+
+    def test_refused(self):
+        folder = self.slices(self.ARRAY)
+        (folder / "s_5.tif").unlink()
+        self.refused("slices are missing, or numbered twice: 's_6.tif' follows 's_4.tif', and other numbers are 1 apart", folder)
+        for page, pattern in ((self.ARRAY[0, :5], "its slices differ: 's_3.tif' has 20 x 5 voxels of 2 bytes, and 's_0.tif' 20 x 12 of 2"),
+                              (self.ARRAY[0].astype("u1"), "its slices differ: 's_3.tif' has 20 x 12 voxels of 1 bytes"),
+                              (self.ARRAY[0].astype("i2"), "its slices differ")):
+            write(self.slices(self.ARRAY) / "s_3.tif", page[None])
+            self.refused(pattern, folder)
+        write(self.slices(self.ARRAY) / "s_3.tif", self.ARRAY)
+        self.refused("'s_3.tif': it has 12 pages, .*: if each is a mask, give the files one by one", folder)
+        (self.slices(self.ARRAY) / "s_3.tif").write_bytes(b"x")
+        self.refused("'s_3.tif': it is no TIFF file", folder)
+        path = self.slices(self.ARRAY) / "s_3.tif"
+        path.write_bytes(path.read_bytes()[:300])
+        self.refused("'s_3.tif': it is truncated or damaged", folder)
+        self.refused("it holds one slice, 's_0.tif'", self.slices(self.ARRAY[:1]))
+        self.refused("holds no DICOM images, no slices", self.slices(()))
+
+    def test_among_others(self):
+        """DICOM and volumes come first."""
+        folder = self.slices(self.ARRAY)
+        images.write_nrrd(folder / "mask.nrrd", (self.ARRAY > 2).astype("u1"))
+        reader = self.reader(folder)
+        self.assertEqual(reader.GetErrorMessage(), "")
+        self.assertRegex(" ".join(warnings_of(reader)), "left out what is no image: s_0.tif, s_1.tif, s_2.tif")
 
 
 class Damage(TIFFTestCase):
