@@ -8,7 +8,7 @@ set(VOXPLEX_HAVE_IO OFF)
 
 # The component names of VTK's modules that IO/vtk.module lists.
 set(_voxplex_io_components
-  CommonCore CommonDataModel CommonExecutionModel CommonMisc IOCore IOGeometry IOLegacy IOXML ImagingCore expat hdf5 tiff)
+  CommonCore CommonDataModel CommonExecutionModel CommonMisc IOCore IOGeometry IOLegacy IOXML expat hdf5 png tiff)
 
 if (WIN32)
   voxplex_skip("reading and writing of files" "images are read by a process of its own, which is started as on POSIX systems only")

@@ -3,7 +3,7 @@
 #include "MaskFiles.h"
 
 #include "FileError.h"
-#include "ImageReading/Readers.h"
+#include "ImageReading/FilesOfFolder.h"
 #include "ImageReading/Units.h"
 #include "MasksOnGrid.h"
 #include "Text.h"

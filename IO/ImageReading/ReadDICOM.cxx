@@ -462,7 +462,8 @@ FileNames ChooseSeries(
   const SeriesByUID& available, const std::string& wanted, std::vector<std::string>& warnings)
 {
   RefuseIf(available.empty(),
-    "the folder holds no DICOM images, no slices (.tif), and no files that are named as masks are "
+    "the folder holds no DICOM images, no slices (.tif, .png), and no files that are named as "
+    "masks are "
     "(.nii.gz, .nrrd)");
   if (const auto exact = available.find(wanted); exact != available.end() && !wanted.empty())
   {

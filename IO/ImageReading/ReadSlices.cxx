@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Readers.h"
 
+#include "FilesOfFolder.h"
 #include "Placement.h"
 #include "Text.h"
-
-#include <vtkNew.h>
-#include <vtkSortFileNames.h>
-#include <vtkStringArray.h>
 
 #include <algorithm>
 #include <cstring>
@@ -65,7 +62,7 @@ ScalarImage ReadSlice(const std::string& path, Reading& reading)
 {
   try
   {
-    return ReadTIFFSlice(path, reading);
+    return IsPNG(InputFile(path)) ? ReadPNGSlice(path, reading) : ReadTIFFSlice(path, reading);
   }
   catch (const FileError& error)
   {
@@ -74,37 +71,6 @@ ScalarImage ReadSlice(const std::string& path, Reading& reading)
 }
 
 } // namespace
-
-bool IsDICOMFile(const std::string& path)
-{
-  try
-  {
-    constexpr std::size_t preamble = 128;
-    return InputFile(path).Beginning(preamble + 4).find("DICM", preamble) == preamble;
-  }
-  catch (const FileError&) // what cannot be opened is no reason to take the folder for one of DICOM
-  {
-    return false;
-  }
-}
-
-std::vector<std::string> SortByNumbers(const std::vector<std::string>& names)
-{
-  vtkNew<vtkStringArray> array;
-  for (const std::string& name : names)
-  {
-    array->InsertNextValue(name);
-  }
-  vtkNew<vtkSortFileNames> sort;
-  sort->NumericSortOn();
-  sort->SetInputFileNames(array);
-  std::vector<std::string> sorted;
-  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
-  {
-    sorted.push_back(sort->GetFileNames()->GetValue(i));
-  }
-  return sorted;
-}
 
 std::vector<std::string> ListSlices(const std::string& folder)
 {
@@ -118,7 +84,7 @@ std::vector<std::string> ListSlices(const std::string& folder)
     {
       continue;
     }
-    if (extension == ".tif" || extension == ".tiff")
+    if (extension == ".tif" || extension == ".tiff" || extension == ".png")
     {
       slices.push_back(entry.path().string());
     }
@@ -134,6 +100,11 @@ ScalarImage ReadSlices(const std::vector<std::string>& files, Reading& reading)
 {
   RefuseIf(files.size() == 1, "it holds one slice, ", NameInFolder(files[0]),
     ", and a label image has several: give the file of a volume, or a folder with all slices");
+  const auto isPNG = [](const std::string& path)
+  { return LowerCase(fs::path(path).extension().string()) == ".png"; };
+  RefuseIf(std::any_of(files.begin(), files.end(), isPNG) &&
+      !std::all_of(files.begin(), files.end(), isPNG),
+    "it holds files of TIFF and of PNG: take those that are no slices out of the folder");
   CheckNumbers(files);
   ScalarImage image;
   for (std::size_t k = 0; k < files.size(); ++k)

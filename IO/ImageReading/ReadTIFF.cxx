@@ -657,7 +657,7 @@ bool IsTIFF(const InputFile& file)
 ScalarImage ReadTIFFSlice(const std::string& path, Reading& reading)
 {
   const InputFile file(path);
-  RefuseIf(!IsTIFF(file), "it is no TIFF file, as its name says");
+  RefuseIf(!IsTIFF(file), "it is no TIFF or PNG file, as its name says");
   PageReader reader(file);
   const TIFFPages pages = reader.List(reading.Warnings);
   RefuseIf(pages.Count() > 1, "it has ", pages.Count(),

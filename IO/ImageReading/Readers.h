@@ -131,17 +131,21 @@ ScalarImage ReadTIFFSlice(const std::string& path, Reading& reading);
 
 ///@{
 /**
- * A folder with a file for each slice, in the order of names, "s2" before "s10": TIFF. They have one size and type, and
+ * A slice of grey values of 1 to 16 bits, by libpng. The numbers are those that are stored, and not corrected by gamma.
+ */
+bool IsPNG(const InputFile& file);
+ScalarImage ReadPNGSlice(const std::string& path, Reading& reading);
+///@}
+
+///@{
+/**
+ * A folder with a file for each slice, in the order of names, "s2" before "s10": TIFF or PNG. They have one size and type, and
  * numbers without gaps. Voxels are 1 x 1 x 1, with a warning.
  *
  * @return the files; none if one of the folder is DICOM
  */
 std::vector<std::string> ListSlices(const std::string& folder);
 ScalarImage ReadSlices(const std::vector<std::string>& files, Reading& reading);
-/** By the four letters that tell it, without parsing anything; false for what cannot be opened. */
-bool IsDICOMFile(const std::string& path);
-/** With the numbers in names as numbers. */
-std::vector<std::string> SortByNumbers(const std::vector<std::string>& names);
 ///@}
 
 ///@{

@@ -17,6 +17,10 @@ import images
 from iotesting import FolderTestCase, warnings_of
 
 try:
+    import PIL.Image
+except ImportError:
+    PIL = None
+try:
     import tifffile
 except ImportError:
     tifffile = None
@@ -602,7 +606,7 @@ class Folders(TIFFTestCase):
         write(self.slices(self.ARRAY) / "s_3.tif", self.ARRAY)
         self.refused("'s_3.tif': it has 12 pages, .*: if each is a mask, give the files one by one", folder)
         (self.slices(self.ARRAY) / "s_3.tif").write_bytes(b"x")
-        self.refused("'s_3.tif': it is no TIFF file", folder)
+        self.refused("'s_3.tif': it is no TIFF or PNG file", folder)
         path = self.slices(self.ARRAY) / "s_3.tif"
         path.write_bytes(path.read_bytes()[:300])
         self.refused("'s_3.tif': it is truncated or damaged", folder)
@@ -616,6 +620,62 @@ class Folders(TIFFTestCase):
         reader = self.reader(folder)
         self.assertEqual(reader.GetErrorMessage(), "")
         self.assertRegex(" ".join(warnings_of(reader)), "left out what is no image: s_0.tif, s_1.tif, s_2.tif")
+
+
+def png(path, page, bits=8, colours=0, interlace=0, damage=bytes):
+    """One slice, by the standard (w3.org/TR/png)."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    def packed(part):
+        digits = "".join(format(int(n), f"0{bits}b") for n in np.ravel(part))
+        return bytes(int(digits[at:at + 8].ljust(8, "0"), 2) for at in range(0, len(digits), 8))
+
+    # Adam7: the first row and column of each pass, and the steps
+    passes = ((0, 0, 8, 8), (0, 4, 8, 8), (4, 0, 8, 4), (0, 2, 4, 4), (2, 0, 4, 2), (0, 1, 2, 2), (1, 0, 2, 1))
+    parts = [page[y::dy, x::dx] for y, x, dy, dx in passes] if interlace else [page]
+    data = b"".join(b"\0" + packed(row) for part in parts if part.size for row in part)
+    path.write_bytes(damage(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(
+        ">2I5B", page.shape[1], page.shape[0], bits, colours, 0, 0, interlace)) + chunk(b"gAMA", struct.pack(">I", 45455)) + (
+        chunk(b"PLTE", bytes(768)) if colours == 3 else b"") + chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b"")))
+
+
+class FoldersOfPNG(TIFFTestCase):
+    def test_read(self):
+        """The numbers that are stored, whatever a viewer makes of them."""
+        for bits, interlace in itertools.product((1, 2, 4, 8, 16), (0, 1)):
+            array = np.random.default_rng(3).integers(0, 2**bits, (12, 9, 13)).astype("u2" if bits > 8 else "u1")
+            for n, page in enumerate(array):
+                png(self.folder / f"s{n}.png", page, bits, interlace=interlace)
+            self.check(self.folder, array, warnings=Folders.TOLD)
+        self.read(self.folder, Spacing=(0.1, 0.1, 0.2))
+
+    @unittest.skipUnless(PIL, "there is no PIL (apt-get install python3-pil)")
+    def test_of_pil(self):
+        for dtype in ("u1", "u2", "?"):
+            array = np.random.default_rng(3).integers(0, 2, (3, 40, 50)).cumsum(axis=2).astype(dtype)
+            for n, page in enumerate(array):
+                PIL.Image.fromarray(page).save(self.folder / f"s{n}.png")
+            self.check(self.folder, array, warnings=Folders.TOLD, dtype="u1" if dtype == "?" else dtype)
+
+    def test_refused(self):
+        page = labels("u1")[0]
+        for n in range(3):
+            png(self.folder / f"s{n}.png", page)
+        path = self.folder / "s1.png"
+        for pattern, options in (("stand for colours of a palette", {"colours": 3}), ("its numbers are colours", {"colours": 2}),
+                                 ("alpha", {"colours": 4}), ("truncated or damaged", {"damage": lambda f: f[:-20]}),
+                                 ("truncated or damaged", {"damage": lambda f: f[:90] + bytes([f[90] ^ 1]) + f[91:]}),
+                                 ("no TIFF or PNG", {"damage": lambda f: f[1:]}),
+                                 ("it claims 1000000 x 900000", {"damage": lambda f: f[:16] + struct.pack(">2I", 1000000, 900000) +
+                                  f[24:29] + struct.pack(">I", zlib.crc32(f[12:16] + struct.pack(">2I", 1000000, 900000) +
+                                                                         f[24:29])) + f[33:]})):
+            png(path, page, **options)
+            self.refused("'s1.png': .*" + pattern, self.folder)
+        png(path, page[:5])
+        self.refused("its slices differ: 's1.png' has 20 x 5 voxels", self.folder)
+        write(self.folder / "s1.tif", page[None])
+        self.refused("files of TIFF and of PNG", self.folder)
 
 
 class Damage(TIFFTestCase):
