@@ -126,14 +126,24 @@ ScalarType TypeOfMRC(const Fields& fields)
   }
 }
 
-/** ITK and others before 2014 mean numbers up to 255 by mode 0, and do not say so. */
+/** ITK and others before 2014 mean numbers up to 255 by mode 0, and do not say so; IMOD means them less 128. */
 void WarnOfNegativeBytes(const Fields& fields, const ScalarImage& image, Reading& reading)
 {
   constexpr std::int32_t firstThatSaysSo = 20140;
   const auto* const bytes = static_cast<const std::int8_t*>(image.Scalars.get());
-  if (image.Type == ScalarType::Int8 && !IsOfIMOD(fields) &&
-    fields.Get<std::int32_t>(108) < firstThatSaysSo &&
-    std::any_of(bytes, bytes + image.NumberOfVoxels(), [](std::int8_t voxel) { return voxel < 0; }))
+  if (image.Type != ScalarType::Int8 ||
+    std::none_of(
+      bytes, bytes + image.NumberOfVoxels(), [](std::int8_t voxel) { return voxel < 0; }))
+  {
+    return;
+  }
+  if (IsOfIMOD(fields))
+  {
+    reading.Warnings.push_back(
+      "it has negative voxels (mode 0), in which IMOD stores numbers from 0 to 255 less 128: "
+      "if labels are negative, save it with mode 6 (newstack -mode 6)");
+  }
+  else if (fields.Get<std::int32_t>(108) < firstThatSaysSo)
   {
     reading.Warnings.push_back("it has negative voxels (mode 0), by which the program that wrote "
                                "it may have meant numbers from 128 to 255");

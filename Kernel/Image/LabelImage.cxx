@@ -149,7 +149,13 @@ std::pair<const char*, const char*> Diagnose(T value)
     }
   }
   const bool isNegative = std::is_signed_v<T> && !(value > T(0));
-  return { isNegative ? "is negative" : "exceeds the largest label, 9223372036854775807",
+  if (isNegative)
+  {
+    return { "is negative",
+      "choose the labels to mesh with {labels}, if some are above 0, or change its numbers so that "
+      "the background is 0 and labels are above" };
+  }
+  return { "exceeds the largest label, 9223372036854775807",
     "choose the labels to mesh with {labels}, or set such voxels to 0" };
 }
 

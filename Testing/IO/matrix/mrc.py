@@ -65,7 +65,8 @@ for case in combinations(type=MODES, order=ORDERS, map=PERMUTATIONS, extended=(0
 equal("bytes of 0 to 127, old header", Image(np.arange(60, dtype="i1").reshape(3, 4, 5), WHERE, warns=WARNS),
       [Image(np.arange(60, dtype="u1").reshape(3, 4, 5), WHERE, warns=WARNS)], nversion=0)
 equal("unsigned bytes of IMOD", Image(voxels("u1"), WHERE, warns=WARNS), mode=0, imod_stamp=1146047817, imod_flags=0, nversion=0)
-equal("signed bytes of IMOD", Image(voxels("i1"), WHERE, warns=WARNS), mode=0, imod_stamp=1146047817, imod_flags=1, nversion=0)
+equal("signed bytes of IMOD, none negative", Image(voxels("i1") & 127, WHERE, warns=WARNS), mode=0, imod_stamp=1146047817, imod_flags=1, nversion=0)
+equal("signed bytes of IMOD", Image(voxels("i1"), WHERE, warns="IMOD stores numbers from 0 to 255 less 128: .*newstack -mode 6"), mode=0, imod_stamp=1146047817, imod_flags=1, nversion=0)
 equal("negative bytes, old header", Image(voxels("i1"), WHERE, warns="negative.*128 to 255"), nversion=0)
 equal("half floats", Image(np.arange(60, dtype="f2").reshape(3, 4, 5).astype("f4"), WHERE), [refused("mode|12|half")],
       wrap=lambda f: mrc(np.arange(60, dtype="f2").reshape(3, 4, 5), mode=12))
