@@ -549,7 +549,14 @@ bool MasksOnGrid::Add(const LabelTable::Entry& entry, ScalarImage image, const s
   const std::uint32_t label = this->Union->AddName(name);
   if (!entry.Name.empty())
   {
-    this->Labels.Entries[label] = entry;
+    LabelTable own{ { { label, entry } } };
+    std::vector<std::string> odd;
+    LeaveOutOtherTexts(own, odd);
+    for (const std::string& warning : odd)
+    {
+      this->OddNames.push_back(Excerpt(shown, 300) + ": " + warning);
+    }
+    this->Labels.Entries.merge(own.Entries);
   }
   try
   {
@@ -602,7 +609,7 @@ ImageAnswer MasksOnGrid::Finish(Overlap rule, std::vector<std::string> warnings)
   }
   answer.Image = this->Union->Finish(rule, answer.Warnings);
   answer.Labels = std::move(this->Labels);
-  LeaveOutOtherTexts(answer.Labels, answer.Warnings);
+  answer.Warnings.insert(answer.Warnings.end(), this->OddNames.begin(), this->OddNames.end());
   return answer;
 }
 

@@ -90,6 +90,7 @@ private:
   ScalarImage Grid;
   std::optional<MaskUnion> Union; ///< with the first mask
   LabelTable Labels;
+  std::vector<std::string> OddNames; ///< warnings of names that are not used
   std::string Lost;
   std::string Ties; ///< those with faces in the middle of voxels
   std::string Put;  ///< which were put where others lie

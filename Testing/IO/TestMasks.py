@@ -4,6 +4,7 @@
 """Many masks, and segments in layers, as one label image: beside what NumPy makes of them."""
 import importlib.util
 import itertools
+import os
 import re
 import unittest
 from collections import Counter
@@ -752,6 +753,17 @@ class Rules(MaskTestCase):
             probabilities[0, 0, 0] = value
             self.masks_refused("'.*/a.nrrd' is no mask, .* has the value .*probabilities from 0 to 1",
                                self.write(b=mask, a=probabilities))
+
+    def test_names_of_no_text(self):
+        """The warning names the file."""
+        folder, mask = self.folder / "in", box(self.SHAPE, (1, 3), (1, 3), (1, 4))
+        folder.mkdir()
+        images.write_nrrd(folder / "a.nrrd", mask)
+        images.write_nrrd(os.fsencode(folder) + b"/li\xe9vre.nrrd", np.roll(mask, 3, axis=2))
+        reader = self.reader(folder)
+        self.assertEqual(reader.GetErrorMessage(), "")
+        self.assertEqual(table_of(reader.GetOutput()), {1: ("a", None)})
+        self.assertRegex(warnings_of(reader)[0], "/in/li.*vre.nrrd': the name of label 2 is not in UTF-8")
 
     def test_no_masks(self):
         mask = box(self.SHAPE, (1, 3), (1, 3), (1, 4))
