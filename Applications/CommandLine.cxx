@@ -115,7 +115,7 @@ po::options_description DescribeFiles()
       "beside the image if --input gives one, and written in other formats") //
     ("interfaces", Text("FILE"),
       "the interfaces of --mesh (.vtp or .vtu; of pentatopes .vtu); without it they are made from "
-      "the labels")                                                                  //
+      "the labels. --plc writes them in another format, also without --mesh")        //
     ("series", Text("UID"), "the DICOM series to read, if the folder holds several") //
     ("spacing", Text("X,Y,Z"),
       "the distances of voxels along the axes of the image, in place of what its file says: for "
@@ -124,8 +124,8 @@ po::options_description DescribeFiles()
       "the place of the first voxel, in place of what the file says, in the coordinates of --space") //
     ("direction", Text("NUMBERS"),
       "the directions of the axes of the image, in place of what the file says, in the coordinates "
-      "of --space: nine numbers, row by row, of a matrix whose columns they are, such as "
-      "1,0,0,0,1,0,0,0,1") //
+      "of --space: nine numbers, row by row, of a matrix whose columns they are, each of length 1, "
+      "such as 1,0,0,0,1,0,0,0,1") //
     ("data-files-anywhere",
       "lets the header of an image (.nhdr, .mhd, .hdr) name data files that are not in its folder "
       "or below; only for headers that you trust") //
@@ -509,7 +509,7 @@ void CheckOptionsOfMesh(const po::variables_map& values)
 Parameters ToParameters(const po::variables_map& values)
 {
   Parameters p;
-  if (values.count("mesh"))
+  if (values.count("mesh") || (values.count("interfaces") && !values.count("input")))
   {
     CheckOptionsOfMesh(values);
   }

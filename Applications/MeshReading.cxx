@@ -92,9 +92,10 @@ bool IsVTU(const std::string& path)
   return io::LowerCase(std::filesystem::path(path).extension().string()) == ".vtu";
 }
 
-vtkSmartPointer<vtkDataSet> ReadInterfaces(const std::string& path, bool isSpaceTime)
+vtkSmartPointer<vtkDataSet> ReadInterfaces(
+  const std::string& path, std::optional<bool> isOfSpaceTime)
 {
-  if (!isSpaceTime && !IsVTU(path))
+  if (!isOfSpaceTime.value_or(false) && !IsVTU(path))
   {
     const auto surface = Read<vtkXMLPolyDataReader, vtkPolyData>(path, ".vtp", "PolyData");
     io::CheckTriangles(surface, "interfaces of tetrahedra are triangles, and it has other cells");
@@ -102,7 +103,7 @@ vtkSmartPointer<vtkDataSet> ReadInterfaces(const std::string& path, bool isSpace
   }
   const auto cells =
     Read<vtkXMLUnstructuredGridReader, vtkUnstructuredGrid>(path, ".vtu", "UnstructuredGrid");
-  if (isSpaceTime)
+  if (isOfSpaceTime.value_or(cells->GetNumberOfCells() > 0 && cells->GetCellType(0) == VTK_TETRA))
   {
     io::CheckCells(cells, VTK_TETRA, 4, "interfaces of pentatopes are tetrahedra", "");
     return cells;
@@ -158,22 +159,29 @@ MeshWithInterfaces ReadMeshFiles(const std::string& mesh, const std::string& int
 {
   MeshWithInterfaces result;
   vtkIdType numberOfPoints = 0;
-  Named(mesh,
-    [&]
-    {
-      result.Mesh =
-        Read<vtkXMLUnstructuredGridReader, vtkUnstructuredGrid>(mesh, ".vtu", "UnstructuredGrid");
-      CheckMesh(result.Mesh);
-      numberOfPoints = result.Mesh->GetNumberOfPoints();
-      PutRight(result);
-    });
+  if (!mesh.empty())
+  {
+    Named(mesh,
+      [&]
+      {
+        result.Mesh =
+          Read<vtkXMLUnstructuredGridReader, vtkUnstructuredGrid>(mesh, ".vtu", "UnstructuredGrid");
+        CheckMesh(result.Mesh);
+        numberOfPoints = result.Mesh->GetNumberOfPoints();
+        PutRight(result);
+      });
+  }
   if (!interfaces.empty())
   {
     Named(interfaces,
       [&]
       {
-        const auto cells = ReadInterfaces(interfaces, HasPentatopes(result.Mesh));
-        CheckArraysOfInterfaces(cells, numberOfPoints);
+        const auto cells = ReadInterfaces(
+          interfaces, result.Mesh ? std::optional<bool>(HasPentatopes(result.Mesh)) : std::nullopt);
+        if (result.Mesh)
+        {
+          CheckArraysOfInterfaces(cells, numberOfPoints);
+        }
         if (!result.IsChanged)
         {
           result.Interfaces = cells;

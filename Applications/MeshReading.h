@@ -20,7 +20,7 @@ namespace voxplex::cli
 /** A mesh and its interfaces. */
 struct MeshWithInterfaces
 {
-  vtkSmartPointer<vtkUnstructuredGrid> Mesh;
+  vtkSmartPointer<vtkUnstructuredGrid> Mesh; ///< may be null
   vtkSmartPointer<vtkDataObject> Interfaces;
   bool IsChanged = false; ///< is not as it was read: elements were turned, or points left out
   std::string Warning;    ///< may be empty
@@ -33,7 +33,7 @@ struct MeshWithInterfaces
  * arrays are checked afterwards, and the mesh is put right (vtkSimplexMeshInterfaces), so that the rest of the program
  * can rely on it.
  *
- * @param mesh a .vtu file of tetrahedra or pentatopes, as vtkSimplexMeshWriter writes them
+ * @param mesh a .vtu file of tetrahedra or pentatopes, as vtkSimplexMeshWriter writes them; empty: interfaces alone
  * @param interfaces of that mesh: a .vtp or .vtu file of triangles, or a .vtu file of tetrahedra. They are made if it is
  *   empty, or if the mesh was changed
  * @throws RunError that names the file and says what is wrong

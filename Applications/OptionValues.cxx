@@ -204,10 +204,11 @@ std::vector<double> ParseDirection(const std::string& option, std::string_view t
   constexpr double smallestDeterminant = 1e-5; // of unit vectors, as for images
   const std::vector<double> matrix = ParseSoMany(option, text, 9, "1,0,0,0,1,0,0,0,1");
   std::array<std::array<double, 3>, 3> axes{};
+  std::array<double, 3> lengths{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     axes[axis] = { matrix[axis], matrix[3 + axis], matrix[6 + axis] };
-    vtkMath::Normalize(axes[axis].data());
+    lengths[axis] = vtkMath::Normalize(axes[axis].data());
   }
   const double determinant =
     vtkMath::Determinant3x3(axes[0].data(), axes[1].data(), axes[2].data());
@@ -216,6 +217,17 @@ std::vector<double> ParseDirection(const std::string& option, std::string_view t
     throw UsageError("--" + option +
       ": the columns of the matrix are the directions of the axes, and those of " + Quoted(text) +
       " are not independent");
+  }
+  constexpr double roundedToThreeDigits = 1e-3;
+  if (std::any_of(lengths.begin(), lengths.end(),
+        [](double length) { return std::abs(length - 1.0) > roundedToThreeDigits; }))
+  {
+    throw UsageError("--" + option +
+      ": the columns of the matrix must have the length 1, and those of " + Quoted(text) +
+      " have " + NumberText(lengths[0]) + ", " + NumberText(lengths[1]) + " and " +
+      NumberText(lengths[2]) +
+      "; of an affine, give these lengths with --spacing, and each column divided by its length "
+      "here");
   }
   return matrix;
 }

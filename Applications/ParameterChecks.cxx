@@ -106,6 +106,10 @@ void CheckDependent(const Parameters& p)
 /** A mesh that is there. */
 void CheckMesh(const Parameters& p)
 {
+  if (p.IsAboutInterfaces())
+  {
+    return;
+  }
   if (p.Mesh.empty())
   {
     RefuseIf(!p.MeshInterfaces.empty(), "--interfaces",
@@ -122,8 +126,7 @@ void CheckSavedImage(const Parameters& p)
     return;
   }
   RefuseIf(!p.SavedImage.ends_with(".nrrd"), "--save-image", ": images are saved as .nrrd");
-  const bool isMore =
-    p.Quality || !(p.Output + p.Interfaces + p.Statistics + p.Slices + p.Slabs + p.Mesh).empty();
+  const bool isMore = p.Quality || !(p.Output + p.Interfaces + p.Slices + p.Slabs + p.Mesh).empty();
   RefuseIf(isMore, "--save-image",
     ": no mesh is made or read beside it; leave it or the options about meshes out");
 }

@@ -82,6 +82,14 @@ struct Parameters
   bool Quality = false;
   bool Hausdorff = false; ///< implies Quality
 
+  /** Whether interfaces are written in another format, without their mesh. */
+  bool IsAboutInterfaces() const
+  {
+    const bool isMore = this->Quality || !this->Inputs.empty() ||
+      !(this->Mesh + this->Output + this->Statistics + this->Slices + this->Slabs).empty();
+    return !isMore && !this->MeshInterfaces.empty() && !this->Interfaces.empty();
+  }
+
   /** What messages call the image; empty if there is none. */
   std::string InputName() const
   {

@@ -18,6 +18,7 @@
 #include "StatisticsReport.h"
 #include "WholeFiles.h"
 
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
@@ -459,6 +460,7 @@ void SaveImage(const Parameters& p)
 {
   io::WholeFiles files;
   AnnounceFile(files, p.SavedImage);
+  AnnounceFile(files, p.Statistics);
   ProtectInputs(files, p, {});
   MeshingInput input = Read(p);
   ProtectInputs(files, p, input);
@@ -467,16 +469,48 @@ void SaveImage(const Parameters& p)
   {
     WriteImage(input.Labels, input.Source(), files.TemporaryPath(p.SavedImage));
   }
-  CommitFiles(files);
-  if (input.Repair)
+  const RepairReport report = input.Repair ? ReportRepair(p, input) : RepairReport();
+  if (!p.Statistics.empty())
   {
-    const RepairReport report = ReportRepair(p, input);
-    Warn(report.Warnings);
-    std::cout << report.Text << std::flush;
+    WriteReport({ { "repair", report.Rows } }, p.Statistics, files);
   }
+  CommitFiles(files);
+  Warn(report.Warnings);
+  std::cout << report.Text << std::flush;
+}
+
+/** Writes interfaces, without their mesh, in another format. */
+void ConvertInterfaces(const Parameters& p)
+{
+  io::WholeFiles files;
+  AnnounceMesh(files, p.Interfaces);
+  ProtectInputs(files, p, {});
+  const MeshWithInterfaces given = ReadMeshFiles("", p.MeshInterfaces);
+  WriteMeshFile(nullptr, given.Interfaces, vtkSimplexMeshWriter::CONTENT_INTERFACES, p.Interfaces,
+    files, -1, p.Compress);
+  CommitFiles(files);
 }
 
 using Filter = vtkSmartPointer<vtkImageToSimplexMeshFilter>;
+
+/** Leaves out names of labels that the mesh has not. */
+void KeepNamesOf(const MeshWithInterfaces& mesh)
+{
+  io::LabelTable table = io::GetLabelTable(mesh.Mesh->GetFieldData());
+  vtkDataArray* const labels = mesh.Mesh->GetCellData()->GetArray("Label");
+  std::set<std::int64_t> present;
+  for (vtkIdType cell = 0; !table.Entries.empty() && cell < mesh.Mesh->GetNumberOfCells(); ++cell)
+  {
+    present.insert(static_cast<std::int64_t>(labels->GetComponent(cell, 0)));
+  }
+  std::erase_if(
+    table.Entries, [&present](const auto& entry) { return !present.contains(entry.first); });
+  for (vtkDataObject* const part :
+    { vtkDataObject::SafeDownCast(mesh.Mesh), mesh.Interfaces.Get() })
+  {
+    io::SetLabelTable(part->GetFieldData(), table);
+  }
+}
 
 /** Gives `mesh` what the filter has made. */
 Filter MakeMesh(const Parameters& p, const MeshingInput& input, MeshWithInterfaces& mesh)
@@ -485,6 +519,7 @@ Filter MakeMesh(const Parameters& p, const MeshingInput& input, MeshWithInterfac
     CompleteOrExit(p, [&](const ProgressFunction& progress) { return Mesh(p, input, progress); });
   mesh.Mesh = filter->GetOutput();
   mesh.Interfaces = filter->GetOutputDataObject(1);
+  KeepNamesOf(mesh);
   return filter;
 }
 
@@ -599,7 +634,8 @@ int Main(int argc, const char* const* argv)
     const CommandLine commandLine = ParseCommandLine(argc, argv);
     if (commandLine.Run)
     {
-      IsAboutImage(*commandLine.Run) ? SaveImage(*commandLine.Run) : Run(*commandLine.Run);
+      const Parameters& p = *commandLine.Run;
+      IsAboutImage(p) ? SaveImage(p) : p.IsAboutInterfaces() ? ConvertInterfaces(p) : Run(p);
     }
     else
     {

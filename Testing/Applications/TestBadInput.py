@@ -101,6 +101,9 @@ class CommandLine(ProgramTestCase):
             (("--direction", "1,0,0,0,1,0,0,0,0"), "--direction: .*'1,0,0,0,1,0,0,0,0' are not independent"),
             (("--direction", "1,2,0,1,2,0,0,0,1"), "--direction: the columns of the matrix .* are not independent"),
             (("--direction", "0,0,0,0,0,0,0,0,0"), "--direction: .* are not independent"),
+            (("--direction", "0,-2,0,0.5,0,0,0,0,1"), "--direction: .* must have the length 1, .* have 0.5, 2 and 1; of an affine, .* --spacing"),
+            (("--direction", "1,0,0,0,1,0,0,0,1.002"), "--direction: .* have 1, 1 and 1.002"),
+            (("--direction", "1e-3,0,0,0,1e-3,0,0,0,1e-3", "--mesh", "m.vtu"), "--direction: .* have 0.001, 0.001 and 0.001"),
         ):
             with self.subTest(arguments):
                 self.refuse(pattern, "--input", "a.nrrd", *arguments)

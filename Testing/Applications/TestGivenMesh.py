@@ -86,6 +86,20 @@ class Tetrahedra(MeshTestCase):
         self.run_program("--mesh", "m.vtu", "--interfaces", "j.vtu", "--output", "c.msh")
         self.same_files("a.msh", "c.msh")
 
+    def test_converts_interfaces_alone(self):
+        """As beside their mesh, also those that know no points of it."""
+        self.make()
+        for name in ("a.vtp", "a.vtu", "a.stl", "a.ply", "a.vtk"):
+            self.run_program("--mesh", "m.vtu", "--interfaces", "i.vtp", "--plc", "s" + name)
+            self.assertEqual(self.run_program("--interfaces", "i.vtp", "--plc", "t" + name), "")
+            self.same_files("s" + name, "t" + name)
+        self.run_program("--interfaces", "ta.vtu", "--plc", "b.stl")
+        self.same_files("sa.stl", "b.stl")
+        for status, words, arguments in ((2, "--interfaces: .*give it with --mesh", ("--plc", "x.stl", "--output", "x.vtu")),
+                                         (2, "--interfaces: .*give it with --mesh", ()), (2, "--delta: only for making", ("--plc", "x.stl", "--delta", 2)),
+                                         (2, "--plc: the format '.inp' is not known", ("--plc", "x.inp")), (1, "i.vtp", ("--plc", "i.vtp"))):
+            self.assert_refused(status, words, "--interfaces", "i.vtp", *arguments)
+
     def test_measures_against_the_image(self):
         self.make()
         made = self.call("--input", self.input, "--delta", self.delta, "--threads", 1, "--hausdorff", "--stats", "made.json")
@@ -159,6 +173,11 @@ class Pentatopes(MeshTestCase):
             self.assertEqual(given[key], made[key], key)
         for first, second in (("m", "n"), ("i", "n_i"), ("s_0", "t_0"), ("s_2", "t_2"), ("l_0", "k_0"), ("l_1", "k_1")):
             self.same_files(first + ".vtu", second + ".vtu")
+
+    def test_interfaces_alone(self):
+        self.run_program("--interfaces", "i.vtu", "--plc", "j.vtu")
+        self.run_program(*self.given, "--plc", "k.vtu")
+        self.same_files("k.vtu", "j.vtu")
 
     def test_alone(self):
         told = self.run_program(*self.given, "--quality", "--frame-times", "0.5", "--stats", "s.json", "--slices", "t_")
