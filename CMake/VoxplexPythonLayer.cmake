@@ -6,15 +6,16 @@ set(_voxplex_python_files
   __init__.py
   __main__.py
   errors.py
+  examples.py
   fields.py
   files.py
   images.py
   measuring.py
   meshes.py
-  pipeline.py
   program.py
   py.typed
   pyvista_accessor.py
+  sources.py
   vtkdata.py
   xmlfiles.py)
 

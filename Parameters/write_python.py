@@ -39,8 +39,7 @@ def options(table):
     for p in table:
         low = p["range"][0]
         zero = bool(p["zero"]) and low is not None and (low > 0 or p["low_is_outside"])
-        rows.append(f"    \"{p['python']}\": _Option(\"{p['option']}\", \"{p['kind']}\", {p['default'] == 'on'}, {zero}, "
-                    f"\"{'' if p['of_repair'] else p['property']}\", {tuple(p['words'])!r}),")
+        rows.append(f"    \"{p['python']}\": _Option(\"{p['option']}\", \"{p['kind']}\", {p['default'] == 'on'}, {zero}),")
     return "\n".join(rows).lstrip()
 
 

@@ -27,10 +27,9 @@ import sys
 
 import numpy
 import scipy.sparse
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPlane
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkCutter, vtkTriangleFilter
-from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
 import space_time_fem as fem
 import voxplex
@@ -42,7 +41,7 @@ BLOOD, MUSCLE = 1, 2
 
 
 def phantom():
-    """50 x 50 x 56 voxels of 2 mm; the frames are the components of one array."""
+    """50 x 50 x 56 voxels of 2 mm."""
     z, y, x = numpy.meshgrid(2.0 * numpy.arange(56) - 92.0, 2.0 * (numpy.arange(50) - 24.5),
                              2.0 * (numpy.arange(50) - 24.5), indexing="ij")
     frames = []
@@ -53,26 +52,14 @@ def phantom():
         labels = numpy.where(r2 / outer**2 + (z / apex) ** 2 < 1.0, MUSCLE, 0)
         labels[r2 / inner**2 + (z / (apex - 11.0)) ** 2 < 1.0] = BLOOD
         labels[z > 9.0] = 0
-        frames.append(labels.astype(numpy.uint8).ravel())
-    image = vtkImageData()
-    image.SetDimensions(50, 50, 56)
-    image.SetSpacing(2.0, 2.0, 2.0)
-    image.SetOrigin(-49.0, -49.0, -92.0)
-    image.GetPointData().SetScalars(numpy_to_vtk(numpy.stack(frames, axis=1), deep=True))
-    return image
+        frames.append(labels.astype(numpy.uint8))
+    return voxplex.Image(numpy.stack(frames), spacing=(2.0, 2.0, 2.0), origin=(-49.0, -49.0, -92.0),
+                         times=numpy.linspace(0.0, BEAT, FRAMES))
 
 
 def make_mesh(delta):
-    mesher = voxplex.vtkImageToPentatopeMeshFilter()
-    mesher.SetInputData(phantom())
-    mesher.SetTimeSpacing(BEAT / (FRAMES - 1))
-    mesher.SetTimeScale(200.0)  # a second counts as 200 mm
-    mesher.SetDelta(delta)
-    mesher.SetLabelSize(BLOOD, delta)
-    mesher.Update()
-    if mesher.GetErrorMessage():
-        sys.exit(mesher.GetErrorMessage())
-    return mesher.GetOutput(), fem.SpaceTimeMesh(mesher.GetOutput(), mesher.GetBoundary(), BLOOD)
+    mesh = voxplex.mesh(phantom(), delta, time_scale=200.0, label_sizes={BLOOD: delta})  # a second counts as 200 mm
+    return mesh, fem.SpaceTimeMesh(mesh, BLOOD)
 
 
 def flow(mesh):
@@ -118,14 +105,6 @@ class Transport:
         return (self.first @ before).sum(), (self.last @ concentration).sum(), outwards @ concentration
 
 
-def volume_of_blood(piece):
-    sizes = vtkCellSizeFilter()
-    sizes.SetInputData(piece)
-    sizes.Update()
-    cells = sizes.GetOutput().GetCellData()
-    return vtk_to_numpy(cells.GetArray("Volume"))[vtk_to_numpy(cells.GetArray("Label")) == BLOOD].sum()
-
-
 def draw(slices, path):
     """Cuts across y at a few times."""
     import matplotlib
@@ -139,7 +118,7 @@ def draw(slices, path):
     plane.SetOrigin(0.0, 0.01, 0.0)
     for axis, (time, piece) in zip(axes, slices):
         cutter = vtkCutter()
-        cutter.SetInputData(piece)
+        cutter.SetInputData(piece.to_vtk())
         cutter.SetCutFunction(plane)
         triangles = vtkTriangleFilter()
         triangles.SetInputConnection(cutter.GetOutputPort())
@@ -173,7 +152,7 @@ def main():
     arguments = parser.parse_args()
     os.makedirs(arguments.output, exist_ok=True)
 
-    grid, mesh = make_mesh(arguments.delta)
+    whole, mesh = make_mesh(arguments.delta)
     print(f"{len(mesh.pentatopes)} pentatopes and {len(mesh.points)} points of blood")
     transport = Transport(mesh, flow(mesh))
     check("share of the flow that crosses the wall", transport.leak, 1e-6)
@@ -187,8 +166,8 @@ def main():
     print("values: 98 of 100 points from %.2f to %.2f, all from %.2f to %.2f" % (
         *numpy.percentile(concentration, [1.0, 99.0]), concentration.min(), concentration.max()))
 
-    slices = fem.write_slices(grid, mesh, "Concentration", concentration, arguments.output, "contrast", 29)
-    volumes = [volume_of_blood(piece) for _, piece in slices]
+    slices = fem.write_slices(whole, mesh, "Concentration", concentration, arguments.output, "contrast", 29)
+    volumes = [piece.label_volumes()[BLOOD] for _, piece in slices]
     print("agent that remains: %.3f; blood that never left: %.3f" % (after / before, min(volumes) / volumes[0]))
     draw(slices[::4], os.path.join(arguments.output, "contrast.png"))
 

@@ -19,11 +19,8 @@ Writes FOLDER/heat.pvd, the solution of the finest mesh at 21 times, and FOLDER/
 import argparse
 import math
 import os
-import sys
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonDataModel import vtkImageData
 
 import space_time_fem as fem
 import voxplex
@@ -34,14 +31,10 @@ WAVE_NUMBER = math.pi / 20.0  # k, 1/mm
 
 
 def phantom():
-    """34 x 26 x 26 voxels of 1 mm; the frames are the components of one array."""
+    """34 x 26 x 26 voxels of 1 mm."""
     z, y, x = numpy.meshgrid(numpy.arange(26) - 12.5, numpy.arange(26) - 12.5, numpy.arange(34) - 12.5, indexing="ij")
-    frames = [((x - 8.0 * n / (FRAMES - 1)) ** 2 + y * y + z * z < 64.0).ravel() for n in range(FRAMES)]
-    image = vtkImageData()
-    image.SetDimensions(34, 26, 26)
-    image.SetOrigin(-12.5, -12.5, -12.5)
-    image.GetPointData().SetScalars(numpy_to_vtk(numpy.stack(frames, axis=1).astype(numpy.uint8), deep=True))
-    return image
+    frames = [(x - 8.0 * n / (FRAMES - 1)) ** 2 + y * y + z * z < 64.0 for n in range(FRAMES)]
+    return voxplex.Image(numpy.stack(frames), origin=(-12.5, -12.5, -12.5), times=numpy.linspace(0.0, 1.0, FRAMES))
 
 
 def exact(points):
@@ -58,17 +51,9 @@ def exact_gradient(points):
 
 
 def make_mesh(delta):
-    mesher = voxplex.vtkImageToPentatopeMeshFilter()
-    mesher.SetInputData(phantom())
-    mesher.SetTimeSpacing(1.0 / (FRAMES - 1))
-    mesher.SetTimeScale(16.0)  # a second counts as 16 mm
-    mesher.SetDelta(delta)
-    mesher.SetElementSize(delta)  # inside as well: an upper bound on circumradii
-    mesher.Update()
-    if mesher.GetErrorMessage():
-        sys.exit(mesher.GetErrorMessage())
-    grid, boundary = mesher.GetOutput(), mesher.GetBoundary()
-    return grid, fem.SpaceTimeMesh(grid, boundary, 1)
+    # A second counts as 16 mm. `size`: inside as well, an upper bound on circumradii.
+    mesh = voxplex.mesh(phantom(), delta, time_scale=16.0, size=delta)
+    return mesh, fem.SpaceTimeMesh(mesh, 1)
 
 
 def solve(mesh):
@@ -124,11 +109,11 @@ def main():
     rows = []
     print("delta  pentatopes  points    error of u  of its gradient")
     for delta in sorted(arguments.delta, reverse=True):
-        grid, mesh = make_mesh(delta)
+        whole, mesh = make_mesh(delta)
         values = solve(mesh)
         rows.append((delta, len(mesh.points), *errors(mesh, values)))
         print("%5.2f  %10d  %6d  %10.5f  %10.5f" % (delta, len(mesh.pentatopes), *rows[-1][1:]), flush=True)
-    fem.write_slices(grid, mesh, "u", values, arguments.output, "heat", 21)
+    fem.write_slices(whole, mesh, "u", values, arguments.output, "heat", 21)
     if len(rows) > 1:
         steps = numpy.log([row[0] for row in rows])
         orders = [numpy.polyfit(steps, numpy.log([row[k] for row in rows]), 1)[0] for k in (2, 3)]

@@ -5,66 +5,23 @@
 
     mesh_segmentation.py [INPUT] --output MESH.vtu [--interfaces PLC.vtp] [--delta LENGTH]
 
-INPUT is a label image that VTK reads: .vti, .mha, .mhd or .nii(.gz). Without it a small phantom is
-meshed: two touching organs in a body.
+INPUT is a label image of any format that Voxplex reads. Without it a small phantom is meshed: two touching organs in a body.
 """
 
 import argparse
-import json
-import math
-import sys
 
-from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
-from vtkmodules.vtkIOImage import vtkMetaImageReader, vtkNIFTIImageReader
-from vtkmodules.vtkIOXML import (
-    vtkXMLImageDataReader, vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter)
+import numpy
 
 import voxplex
 
 
 def phantom():
     """48 x 32 x 24 voxels of 1 x 1 x 1.5 mm: organs 2 and 3 touch each other inside of body 1."""
-    image = vtkImageData()
-    image.SetDimensions(48, 32, 24)
-    image.SetSpacing(1.0, 1.0, 1.5)
-    image.AllocateScalars(VTK_UNSIGNED_CHAR, 1)
-    for k in range(24):
-        for j in range(32):
-            for i in range(48):
-                x, y, z = i - 23.5, j - 15.5, 1.5 * (k - 11.5)
-                label = 0
-                if math.hypot(x / 21, y / 14, z / 15) < 1.0:
-                    label = 1
-                if math.hypot(x + 6, y, z) < 7.0:
-                    label = 2
-                elif math.hypot(x - 6, y, z) < 7.0:
-                    label = 3
-                image.SetScalarComponentFromDouble(i, j, k, 0, label)
-    producer = vtkTrivialProducer()
-    producer.SetOutput(image)
-    producer.SetWholeExtent(image.GetExtent())
-    return producer
-
-
-def reader_of(path):
-    readers = {
-        ".vti": vtkXMLImageDataReader, ".mha": vtkMetaImageReader, ".mhd": vtkMetaImageReader,
-        ".nii": vtkNIFTIImageReader, ".nii.gz": vtkNIFTIImageReader}
-    for suffix, reader in readers.items():
-        if path.endswith(suffix):
-            result = reader()
-            result.SetFileName(path)
-            return result
-    sys.exit(f"{path}: the name must end in one of {', '.join(readers)}")
-
-
-def write(writer, port, path):
-    writer.SetInputConnection(port)
-    writer.SetFileName(path)
-    if not writer.Write():
-        sys.exit(f"{path}: could not be written")
+    z, y, x = numpy.meshgrid(1.5 * (numpy.arange(24) - 11.5), numpy.arange(32) - 15.5, numpy.arange(48) - 23.5, indexing="ij")
+    labels = ((x / 21) ** 2 + (y / 14) ** 2 + (z / 15) ** 2 < 1).astype(numpy.uint8)
+    labels[(x + 6) ** 2 + y ** 2 + z ** 2 < 49] = 2
+    labels[(labels < 2) & ((x - 6) ** 2 + y ** 2 + z ** 2 < 49)] = 3
+    return voxplex.Image(labels, spacing=(1.0, 1.0, 1.5))
 
 
 def main():
@@ -72,26 +29,14 @@ def main():
     parser.add_argument("input", nargs="?")
     parser.add_argument("--output", required=True)
     parser.add_argument("--interfaces")
-    parser.add_argument("--delta", type=float, default=0.0)
+    parser.add_argument("--delta", type=float)
     arguments = parser.parse_args()
 
-    source = reader_of(arguments.input) if arguments.input else phantom()
-    mesher = voxplex.vtkImageToTetMeshFilter()
-    mesher.SetInputConnection(source.GetOutputPort())
-    mesher.SetDelta(arguments.delta)
-    mesher.ComputeQualityOn()
-    mesher.Update()
-    if mesher.GetErrorMessage():
-        sys.exit(mesher.GetErrorMessage())
-
-    figures = json.loads(mesher.GetStatistics().ToJSON())
-    print(f"{figures['elements']} tetrahedra, {figures['interface_facets']} interface triangles")
-    for label, entry in figures["labels"].items():
-        print(f"  label {label}: {entry['elements']} tetrahedra, volume {entry['volume']:.1f}")
-
-    write(vtkXMLUnstructuredGridWriter(), mesher.GetOutputPort(), arguments.output)
-    if arguments.interfaces:
-        write(vtkXMLPolyDataWriter(), mesher.GetInterfacesPort(), arguments.interfaces)
+    mesh = voxplex.mesh(arguments.input or phantom(), arguments.delta)
+    print(f"{len(mesh.cells)} tetrahedra, {len(mesh.interfaces.cells)} interface triangles")
+    for label, volume in mesh.label_volumes().items():
+        print(f"  label {label}: {(mesh.labels == label).sum()} tetrahedra, volume {volume:.1f}")
+    mesh.write(arguments.output, interfaces=arguments.interfaces)
 
 
 if __name__ == "__main__":

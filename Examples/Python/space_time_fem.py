@@ -15,10 +15,6 @@ import inspect
 import numpy
 import scipy.sparse
 import scipy.sparse.linalg
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
-
-import voxplex
 
 LATERAL, INITIAL, FINAL = 0, 1, 2
 
@@ -37,14 +33,12 @@ class SpaceTimeMesh:
     velocities  (k,): how fast the boundary moves outwards
     """
 
-    def __init__(self, grid, boundary, label):
-        labels = vtk_to_numpy(grid.GetCellData().GetArray("Label"))
-        cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 5)[labels == label]
-        self.ids = numpy.unique(cells)  # of the points of `grid`
-        number = numpy.full(grid.GetNumberOfPoints(), -1)
+    def __init__(self, mesh, label):
+        cells = mesh.cells[mesh.labels == label]
+        self.ids = numpy.unique(cells)  # of the points of `mesh`
+        number = numpy.full(len(mesh.points), -1)
         number[self.ids] = numpy.arange(len(self.ids))
-        times = vtk_to_numpy(grid.GetPointData().GetArray("Time"))
-        self.points = numpy.column_stack([vtk_to_numpy(grid.GetPoints().GetData()), times])[self.ids]
+        self.points = numpy.column_stack([mesh.points, mesh.times])[self.ids]
         self.pentatopes = number[cells]
         corners = self.points[self.pentatopes]
         edges = corners[:, 1:] - corners[:, :1]
@@ -52,17 +46,15 @@ class SpaceTimeMesh:
         self.gradients = numpy.concatenate([-inverse.sum(axis=1, keepdims=True), inverse], axis=1)
         self.volumes = numpy.abs(numpy.linalg.det(edges)) / 24.0
 
-        cell_data = boundary.GetCellData()
-        pairs = vtk_to_numpy(cell_data.GetArray("Labels"))
+        boundary = mesh.interfaces
+        pairs = boundary.labels
         here = (pairs == label).any(axis=1)
         first = pairs[here, 0] == label
-        point_ids = vtk_to_numpy(boundary.GetPointData().GetArray("PointIds"))
-        facets = vtk_to_numpy(boundary.GetCells().GetConnectivityArray()).reshape(-1, 4)[here]
-        self.facets = number[point_ids[facets]]
+        self.facets = number[boundary.point_ids[boundary.cells[here]]]
         self.other = numpy.where(first, pairs[here, 1], pairs[here, 0])
-        self.sides = vtk_to_numpy(cell_data.GetArray("Side"))[here]
+        self.sides = boundary.cell_data["Side"][here]
         outwards = numpy.where(first, 1.0, -1.0)
-        self.velocities = outwards * vtk_to_numpy(cell_data.GetArray("NormalVelocity"))[here]
+        self.velocities = outwards * boundary.cell_data["NormalVelocity"][here]
         normals = normals_of(self.points[self.facets])
         self.measures = numpy.where(self.sides == LATERAL, numpy.linalg.norm(normals[:, :3], axis=1),
                                     numpy.abs(normals[:, 3]))
@@ -143,32 +135,20 @@ def quadrature():
     return numpy.array(points), numpy.array(weights)
 
 
-def write_slices(grid, mesh, name, values, folder, prefix, count):
+def write_slices(whole, mesh, name, values, folder, prefix, count):
     """Cuts the pentatopes and their values at `count` times: PREFIX_0.vtu and so on, and PREFIX.pvd, which ParaView plays.
 
     Points of other labels get 0. Returns the slices and their times.
     """
-    field = numpy.zeros(grid.GetNumberOfPoints())
+    field = numpy.zeros(len(whole.points))
     field[mesh.ids] = values
-    array = numpy_to_vtk(field, deep=True)
-    array.SetName(name)
-    carrier = grid.NewInstance()
-    carrier.ShallowCopy(grid)
-    carrier.GetPointData().AddArray(array)
-    slicer = voxplex.vtkPentatopeMeshTimeSlice()
-    slicer.SetInputData(carrier)
+    whole.point_data[name] = field
     slices, entries = [], []
-    for index, time in enumerate(numpy.linspace(mesh.points[:, 3].min(), mesh.points[:, 3].max(), count)):
-        slicer.UpdateTimeStep(time)
-        piece = grid.NewInstance()
-        piece.ShallowCopy(slicer.GetOutput())
+    for index, time in enumerate(numpy.linspace(whole.times.min(), whole.times.max(), count)):
+        piece = whole.slice(time)
         slices.append((time, piece))
         file = "%s_%d.vtu" % (prefix, index)
-        writer = vtkXMLUnstructuredGridWriter()
-        writer.SetInputData(piece)
-        writer.SetFileName(os.path.join(folder, file))
-        if not writer.Write():
-            raise RuntimeError(f"{file}: could not be written")
+        piece.write(os.path.join(folder, file))
         entries.append(f'<DataSet timestep="{time:.17g}" part="0" file="{file}"/>')
     with open(os.path.join(folder, prefix + ".pvd"), "w", encoding="ascii") as file:
         file.write('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1"><Collection>\n%s\n'

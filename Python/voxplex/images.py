@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Images in memory, and what mesh() takes for one.
+"""Images in memory.
 
 Arrays are indexed [k, j, i] with i, the first axis of the image, running fastest in memory: the order
 of SimpleITK's GetArrayFromImage() and of ITK's. An array indexed [i, j, k], as nibabel's, is passed
@@ -13,49 +13,85 @@ from __future__ import annotations
 import math
 import os
 import re
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from .fields import Fields, HasFields
+from . import program
+from .errors import FileError, MeshingError
+from .fields import Color, Described, Fields, check_names, html_table
+from .files import Path, in_words, number_list, number_text, temporary_folder
 
 _SPACES = {"LPS": "left-posterior-superior", "RAS": "right-anterior-superior"}
+_ROUNDED = 1e-3  # directions of three digits have this length, nearly
+IS_NO_TEXT = re.compile(r"[\0-\x1f\x7f]")
+"""What no name of a label has."""
 # NumPy has types for a part of it only.
 _MASKED: Any = numpy.ma
 
-Path = Union[str, "os.PathLike[str]"]
 
-
-class Image(HasFields):
+class Image(Described):
     """A label image, one of grey values, or a time series of such images, with its place.
 
-    voxels: an array indexed [k, j, i], or [t, k, j, i] of a time series. One label a voxel, 0 is background, or one
-        grey value. Any integer or real type, or bool. Masked voxels (numpy.ma) are background, and outside of
-        isosurfaces. The array is kept, not copied.
-    spacing: the distances of voxels along i, j and k.
-    origin: where voxel (0, 0, 0) lies.
-    direction: a 3 x 3 matrix (or its 9 numbers, row by row), whose columns are the directions of i, j and k; by
-        default the axes.
-    times: of the frames, increasing; by default 0, 1, 2 ...
-    names: of labels, by value.
-    space: "LPS" or "RAS", the coordinates that these are in, if it is known.
+    Parameters
+    ----------
+    voxels : array_like
+        Indexed [k, j, i], or [t, k, j, i] of a time series. One label a voxel, 0 is background, or one grey value. Any
+        integer or real type, or bool. Masked voxels (numpy.ma) are background, and outside of isosurfaces. The array is
+        kept, not copied.
+    spacing : three numbers, optional
+        The distances of voxels along i, j and k. Default 1.
+    origin : three numbers, optional
+        Where voxel (0, 0, 0) lies. Default 0.
+    direction : 3 x 3 array_like, optional
+        Or its 9 numbers, row by row. The columns are the directions of i, j and k, of length 1. Default: the axes.
+    times : sequence of float, optional
+        Of the frames, increasing. Default 0, 1, 2 ...
+    names : dict of int to str, optional
+        Of labels, by value.
+    space : {"LPS", "RAS"}, optional
+        The coordinates that origin and direction are in, if they are known.
+    affine : 4 x 4 array_like, optional
+        In place of spacing, origin and direction: takes (i, j, k, 1) to RAS, as nibabel's. The place is converted to LPS,
+        unless space is "RAS".
 
-    The attributes have the same names. `field_data` has what meshes inherit: the names as arrays, SPACE, and what a
-    VTK image had.
+    Attributes
+    ----------
+    voxels : numpy.ndarray
+    mask : numpy.ndarray of bool, or None
+        Which voxels do not count.
+    spacing, origin : list of float
+    direction : numpy.ndarray
+    times : list of float
+        Empty without time frames.
+    names : dict of int to str
+        Writing into it renames labels.
+    colors : dict of int to three float
+        Red, green and blue of labels with names, from 0 to 1.
+    space : str or None
+    field_data : dict of str to numpy.ndarray or list of str
+        Further arrays, which meshes inherit.
+    statistics : dict
+        What :func:`repair` did, else empty.
 
-    Raises ValueError for shapes and numbers that do not fit. A uint8 array of four dimensions whose last axis has the
-    length 3 or 4 is taken for a stack of coloured pictures, and refused, unless there are times.
+    Raises
+    ------
+    ValueError
+        Shapes and numbers do not fit. A uint8 array of four dimensions whose last axis has the length 3 or 4 is taken for a
+        stack of coloured pictures, and refused, unless there are times.
 
+    Examples
+    --------
     >>> import numpy
     >>> Image(numpy.zeros((20, 32, 32), dtype=numpy.uint8), spacing=(0.5, 0.5, 1.0))
     Image of 32 x 32 x 20 voxels, uint8
     """
 
-    def __init__(self, voxels: ArrayLike, *, spacing: ArrayLike = (1.0, 1.0, 1.0),
-                 origin: ArrayLike = (0.0, 0.0, 0.0), direction: Optional[ArrayLike] = None,
-                 times: Optional[ArrayLike] = None, names: Optional[Mapping[int, str]] = None,
-                 space: Optional[str] = None) -> None:
+    def __init__(self, voxels: ArrayLike, *, spacing: Optional[ArrayLike] = None, origin: Optional[ArrayLike] = None,
+                 direction: Optional[ArrayLike] = None, times: Optional[ArrayLike] = None,
+                 names: Optional[Mapping[int, str]] = None, space: Optional[str] = None,
+                 affine: Optional[ArrayLike] = None) -> None:
         self.voxels, self.mask = _unmasked(voxels)
         if self.voxels.size == 0:
             raise ValueError(f"the array has the shape {self.voxels.shape}: there are no voxels")
@@ -63,21 +99,26 @@ class Image(HasFields):
             raise ValueError(f"the array has {self.voxels.ndim} dimensions, not 3 ([k, j, i]) or 4 ([t, k, j, i])")
         if self.voxels.dtype.kind not in "biuf":
             raise ValueError(f"the array has elements of type {self.voxels.dtype}, which are not numbers")
-        self.spacing = spacing_of(spacing)
-        self.origin = origin_of(origin)
-        self.direction = direction_of(numpy.eye(3) if direction is None else direction)
-        self._known: Optional[List[str]] = None  # what is given of the place of a bare array
+        self.space: Optional[str] = None if space is None and affine is None else space_of(space or "LPS")
+        place = in_space(place_of(spacing, origin, direction, affine), self.space or "LPS")
+        self.spacing: List[float] = place.get("spacing", [1.0, 1.0, 1.0])
+        self.origin: List[float] = place.get("origin", [0.0, 0.0, 0.0])
+        self.direction: NDArray[numpy.float64] = place.get("direction", numpy.eye(3))
         self.times = self._times(times)
+        self.names: Dict[int, str] = dict(names or {})
+        check_names(self.names)
+        self.colors: Dict[int, Color] = {}
         self.field_data: Fields = {}
-        if names:
-            self.names = dict(names)
-        if space is not None:
-            self.field_data["SPACE"] = [space_of(space)]
+        self.statistics: Dict[str, Any] = {}
 
     def __repr__(self) -> str:
         shape = " x ".join(map(str, reversed(self.voxels.shape[-3:])))
         frames = f"{len(self.voxels)} frames of " if self.is_series else ""
         return f"Image of {frames}{shape} voxels, {self.voxels.dtype}"
+
+    def _repr_html_(self) -> str:
+        place = [(name, ", ".join(map(number_text, numpy.ravel(getattr(self, name))))) for name in ("spacing", "origin", "direction")]
+        return html_table(repr(self), ("", ""), [*place, ("space", self.space or "not known"), *sorted(self.names.items())])
 
     @property
     def is_series(self) -> bool:
@@ -85,20 +126,73 @@ class Image(HasFields):
         return self.voxels.ndim == 4
 
     def to_vtk(self) -> Any:
-        """A vtkImageData that shares the voxels; of a time series a list of them, each with its time."""
-        from .vtkdata import image_to_vtk
-        return image_to_vtk(self)
+        """As data of VTK, which share the voxels. Needs VTK (pip install vtk).
+
+        Returns
+        -------
+        vtkImageData
+            Of a time series a list of them, each with its time.
+        """
+        from .vtkdata import Frame, frame_to_vtk
+        place = (self.spacing, self.origin, self.direction, self._fields())
+        if not self.is_series:
+            return frame_to_vtk(Frame(self.voxels, self.mask, *place), None)
+        return [frame_to_vtk(Frame(self.voxels[n], None if self.mask is None else self.mask[n], *place), time)
+                for n, time in enumerate(self.times)]
 
     @staticmethod
-    def from_vtk(data: Any, times: Optional[ArrayLike] = None) -> Image:
-        """Of a vtkImageData, a list of them (a time series), or a VTK algorithm whose first output is the image.
+    def from_vtk(data: Any, times: Optional[ArrayLike] = None, scalars: Optional[str] = None) -> Image:
+        """Of data of VTK or PyVista, sharing their memory.
 
-        Several components are frames if there are times for them: they may as well be colours.
+        Parameters
+        ----------
+        data : vtkImageData, list of these, or vtkAlgorithm
+            A list is a time series. Of an algorithm the first output is the image.
+        times : sequence of float, optional
+            Of the frames. Several components are frames if there are times for them: they may as well be colours.
+        scalars : str, optional
+            The name of the array of points or cells that has the labels. By default it is the active one, which of points
+            and cells PyVista decides if the image is PyVista's; if none is active, the only one.
         """
+        from .vtkdata import frame_from_vtk, frame_times, frames_of
         if isinstance(data, (list, tuple)):
-            return _series(data, {}, times)
-        from .vtkdata import image_from_vtk
-        return image_from_vtk(data, times)
+            return joined([Image.from_vtk(frame, None, scalars) for frame in data], frame_times(data) if times is None else times)
+        frames, steps = frames_of(data)
+        if len(frames) > 1:
+            return Image.from_vtk(frames, steps if times is None else times, scalars)
+        frame = frame_from_vtk(frames[0], scalars, times is not None)
+        image = from_components(frame.voxels, frame.mask, times, frame.spacing, frame.origin, frame.direction)
+        image._describe(frame.field_data)
+        return image
+
+    def write(self, path: Path) -> None:
+        """Writes it with its place, times, and names and colours of the labels that it has.
+
+        Masked voxels are written as 0. Where space is None, the file says LPS.
+
+        Parameters
+        ----------
+        path : path-like
+            A .nrrd file, which 3D Slicer reads as a segmentation if it ends in .seg.nrrd. It appears whole or not at all.
+
+        Raises
+        ------
+        FileError
+            The file cannot be written, or its extension is another one.
+        """
+        with temporary_folder() as folder:
+            try:
+                program.run([*self._options(folder), "--save-image=" + os.fsdecode(path)],
+                            words=[("save_image: ", "path: "), *in_words(folder)])
+            except MeshingError as error:
+                raise FileError(str(error)) from None
+
+    def _options(self, folder: str) -> List[str]:
+        """Options of the program that read it in its own coordinates, from a file in the folder."""
+        path = os.path.join(folder, "image.nrrd")
+        space = self.space or "LPS"
+        write_nrrd(self, path, hidden_is_outside=False, space=space)
+        return ["--input=" + path, "--space=" + space.lower(), *number_list("frame-times", self.times)]
 
     def _times(self, times: Optional[ArrayLike]) -> List[float]:
         shape = self.voxels.shape
@@ -117,62 +211,8 @@ class Image(HasFields):
         return result
 
 
-def image_of(image: Any, geometry: Mapping[str, Any], times: Optional[ArrayLike]) -> Union[Image, List[str]]:
-    """What mesh() takes for an image: an Image, or the path of a file, or those of masks."""
-    if isinstance(image, Mapping):
-        if times is not None:
-            raise ValueError("times: not with a dictionary of masks; give a list of dictionaries for frames")
-        from .files import read_segmentation
-        check_shapes(image)
-        masks = {name: mask if isinstance(mask, (str, os.PathLike)) and not geometry else single_image(mask, geometry)
-                 for name, mask in image.items()}
-        return read_segmentation(masks, space="RAS" if any(getattr(mask, "space", "") == "RAS" for mask in masks.values()) else "LPS")
-    if isinstance(image, (str, os.PathLike)):
-        return [os.fsdecode(image)]
-    if isinstance(image, (list, tuple)) and image and times is None and all(isinstance(one, (str, os.PathLike)) for one in image):
-        return [os.fsdecode(one) for one in image]
-    kind = type(image).__module__.partition(".")[0]
-    has_place = isinstance(image, Image) or hasattr(image, "IsA") or kind in ("SimpleITK", "itk", "nibabel")
-    if geometry and has_place:
-        raise ValueError(f"{', '.join(geometry)}: only for arrays and files; the image has its own")
-    if isinstance(image, Image):
-        return image if times is None else _at_times(image, times)
-    if hasattr(image, "IsA"):
-        return Image.from_vtk(image, times)
-    if kind in ("SimpleITK", "itk"):
-        return _from_itk(image, times)
-    if kind == "nibabel":
-        return _from_nibabel(image, times)
-    if hasattr(image, "__array__"):
-        result = Image(_MASKED.asanyarray(image), times=times, **geometry)
-        result._known = list(geometry)
-        return result
-    if isinstance(image, (list, tuple)) and image and not isinstance(image[0], (int, float, list, tuple)):
-        return _series(image, geometry, times)
-    raise TypeError("image must be an array, a path, a voxplex.Image, an image of VTK, PyVista, ITK, SimpleITK or nibabel, or "
-                    f"a list or a dictionary of these (not empty), not {type(image).__name__}")
-
-
-def check_shapes(masks: Mapping[str, Any]) -> None:
-    """Arrays have no place that would tell where a smaller one lies."""
-    shapes = sorted({mask.shape for mask in masks.values() if isinstance(mask, numpy.ndarray) and mask.ndim == 3})
-    if len(shapes) > 1:
-        raise ValueError(f"masks that are arrays have different shapes: {shapes[0]} and {shapes[1]}; give images with their place")
-
-
-def single_image(image: Any, geometry: Mapping[str, Any]) -> Image:
-    """What image_of() takes, read if it is in a file."""
-    from .files import read_segmentation
-    found = image_of(image, geometry, None)
-    return found if isinstance(found, Image) else read_segmentation(found, **geometry)
-
-
-def _series(frames: Sequence[Any], geometry: Mapping[str, Any], times: Optional[ArrayLike]) -> Image:
+def joined(images: Sequence[Image], times: Optional[ArrayLike]) -> Image:
     """A time series of single images, which must lie at the same place."""
-    if any(isinstance(frame, Mapping) for frame in frames) and \
-            not all(isinstance(frame, Mapping) and list(frame) == list(frames[0]) for frame in frames):
-        raise ValueError("frames that are dictionaries of masks must have the same names, in the same order")
-    images = [single_image(frame, geometry) for frame in frames]
     first = images[0]
     for number, image in enumerate(images):
         if image.is_series:
@@ -182,29 +222,43 @@ def _series(frames: Sequence[Any], geometry: Mapping[str, Any], times: Optional[
         if (image.spacing, image.origin, image.space) != (first.spacing, first.origin, first.space) or \
                 not numpy.array_equal(image.direction, first.direction):
             raise ValueError(f"frame {number} does not lie where frame 0 lies: spacing, origin, direction or space differ")
-    if times is None and hasattr(frames[0], "IsA"):
-        from .vtkdata import frame_times
-        times = frame_times(frames)
     masks = [image.mask for image in images]
-    result = Image(numpy.stack([image.voxels for image in images]), spacing=first.spacing, origin=first.origin,
-                   direction=first.direction, times=range(len(images)) if times is None else times)
-    if any(mask is not None for mask in masks):
-        result.mask = numpy.stack([numpy.zeros(first.voxels.shape, bool) if mask is None else mask for mask in masks])
-    result.field_data = first.field_data
-    if isinstance(frames[0], Mapping):
-        result.names = dict(enumerate(frames[0], 1))  # also of masks that are empty at first
+    result = at_times(first, range(len(images)) if times is None else times, numpy.stack([image.voxels for image in images]))
+    result.mask = None if all(mask is None for mask in masks) else \
+        numpy.stack([numpy.zeros(first.voxels.shape, bool) if mask is None else mask for mask in masks])
     return result
 
 
-def lies_somewhere(image: Image) -> bool:
-    """Whether it has a place, which a bare array has not."""
-    return image._known is None or "origin" in image._known or "direction" in image._known
+def at_times(image: Image, times: ArrayLike, voxels: Optional[NDArray[Any]] = None) -> Image:
+    """A copy with other times, or other voxels, too."""
+    result = Image(image.voxels if voxels is None else voxels, spacing=image.spacing, origin=image.origin, direction=image.direction,
+                   times=times)
+    result.mask, result.names, result.colors = image.mask, dict(image.names), dict(image.colors)
+    result.space, result.field_data = image.space, image.field_data
+    return result
 
 
-def write_nrrd(image: Image, path: str, hidden_is_outside: bool, space: str = "LPS", is_placed: bool = True) -> None:
+def from_components(voxels: NDArray[Any], mask: Optional[NDArray[numpy.bool_]], times: Optional[ArrayLike],
+                    spacing: ArrayLike, origin: ArrayLike, direction: NDArray[Any]) -> Image:
+    """Of an array indexed [k, j, i] or, of several components, [k, j, i, component]: frames, if there are times."""
+    if voxels.ndim == 4:
+        if times is None:
+            raise ValueError(f"the image has {voxels.shape[3]} components in each voxel: if they are time frames, pass "
+                             "their times (times=[0, 1, ...]); of colours or vectors, extract one component, or make "
+                             "labels of them")
+        voxels = numpy.moveaxis(voxels, -1, 0)
+        mask = None if mask is None else numpy.broadcast_to(mask, voxels.shape)
+    spacing, direction = with_unit_directions(spacing, direction)
+    image = Image(voxels, times=times, spacing=spacing, origin=origin, direction=direction)
+    image.mask = mask
+    return image
+
+
+def write_nrrd(image: Image, path: str, hidden_is_outside: bool, space: str = "LPS", without: Sequence[str] = ()) -> None:
     """Writes an image as the program reads it; masked voxels become NaN if they are outside of isosurfaces, else 0.
 
-    is_placed: otherwise the file has the spacing alone, if it was given."""
+    without: "origin" if it is not known where the image lies, "spacing" if its spacing is not known either.
+    """
     voxels = _stored(image.voxels)
     if image.mask is not None and hidden_is_outside and voxels.dtype.kind != "f":
         voxels = voxels.astype(numpy.float32 if voxels.dtype.itemsize < 4 else numpy.float64)
@@ -217,9 +271,13 @@ def write_nrrd(image: Image, path: str, hidden_is_outside: bool, space: str = "L
               f"sizes: {' '.join(map(str, reversed(voxels.shape)))}",
               f"space directions: {' '.join(columns + ['none'] * image.is_series)}", f"kinds: {' '.join(kinds)}",
               f"space origin: ({','.join(map(repr, image.origin))})", "endian: little", "encoding: raw"]
-    if not is_placed:
+    if "origin" in without:
         header = [line for line in header if not line.startswith("space")]
-        header += [f"spacings: {' '.join(map(repr, image.spacing))}"] * ("spacing" in (image._known or []))
+        header += [] if "spacing" in without else [f"spacings: {' '.join(map(repr, image.spacing))}"]
+    if image.is_series:
+        header.append("axis 3 index values:=" + " ".join(map(repr, image.times)))
+    if not hidden_is_outside:  # grey values have no names
+        header += _segments(image)
     with open(path, "wb") as file:
         file.write(("\n".join(header) + "\n\n").encode())
         masks = image.mask if image.is_series else None if image.mask is None else image.mask[numpy.newaxis]
@@ -227,6 +285,19 @@ def write_nrrd(image: Image, path: str, hidden_is_outside: bool, space: str = "L
             if masks is not None:
                 frame = numpy.where(masks[number], voxels.dtype.type(outside), frame)
             file.write(numpy.ascontiguousarray(frame).data)
+
+
+def _segments(image: Image) -> List[str]:
+    """Names and colours as 3D Slicer writes them."""
+    check_names(image.names)
+    lines = []
+    for number, (label, name) in enumerate(sorted(image.names.items())):
+        if name.strip() and not IS_NO_TEXT.search(name):
+            key = f"Segment{number}_"
+            lines += [f"{key}ID:=Segment_{label}", f"{key}LabelValue:={label}", f"{key}Layer:=0", f"{key}Name:={name}"]
+            if label in image.colors:
+                lines.append(f"{key}Color:={' '.join(repr(float(part)) for part in image.colors[label])}")
+    return lines
 
 
 def read_nrrd(path: str) -> Image:
@@ -237,17 +308,16 @@ def read_nrrd(path: str) -> Image:
         shape = [int(size) for size in reversed(pairs["sizes"].split())]
         dtype = {"float": "float32", "double": "float64"}.get(pairs["type"], pairs["type"])
         voxels = numpy.fromfile(file, dtype=dtype).reshape(shape)
-    columns = [_point(text) for text in pairs["space directions"].split()[:3]]
-    spacing = [math.sqrt(sum(x * x for x in column)) for column in columns]
+    spacing, direction = apart(numpy.array([_point(text) for text in pairs["space directions"].split()[:3]]).T)
     times = pairs.get("axis 3 index values")
-    image = Image(voxels, spacing=spacing, origin=_point(pairs["space origin"]),
-                  direction=numpy.array(columns).T / spacing, times=None if times is None else [float(t) for t in times.split()],
+    image = Image(voxels, spacing=spacing, origin=_point(pairs["space origin"]), direction=direction,
+                  times=None if times is None else [float(t) for t in times.split()],
                   space="LPS" if pairs["space"] == _SPACES["LPS"] else "RAS")
-    segments = [key[:-len("ID")] for key in pairs if re.fullmatch(r"Segment\d+_ID", key)]
-    image.names = {int(pairs[segment + "LabelValue"]): pairs[segment + "Name"] for segment in segments}
-    if segments:
-        colors = [pairs.get(segment + "Color", "nan nan nan").split() for segment in segments]
-        image.field_data["LabelColors"] = numpy.array(colors, dtype=float)
+    for segment in [key[:-len("ID")] for key in pairs if re.fullmatch(r"Segment\d+_ID", key)]:
+        label = int(pairs[segment + "LabelValue"])
+        image.names[label] = pairs[segment + "Name"]
+        if segment + "Color" in pairs:
+            image.colors[label] = [float(part) for part in pairs[segment + "Color"].split()]
     return image
 
 
@@ -255,8 +325,8 @@ def _point(text: str) -> List[float]:
     return [float(number) for number in text.strip("()").split(",")]
 
 
-def place_of(spacing: Optional[ArrayLike], origin: Optional[ArrayLike],
-             direction: Optional[ArrayLike]) -> Dict[str, Any]:
+def place_of(spacing: Optional[ArrayLike], origin: Optional[ArrayLike], direction: Optional[ArrayLike],
+             affine: Optional[ArrayLike] = None) -> Dict[str, Any]:
     """What is given of the place of an image."""
     values: Dict[str, Any] = {}
     if spacing is not None:
@@ -265,7 +335,38 @@ def place_of(spacing: Optional[ArrayLike], origin: Optional[ArrayLike],
         values["origin"] = origin_of(origin)
     if direction is not None:
         values["direction"] = direction_of(direction)
+    if affine is not None:
+        if values:
+            raise ValueError(f"{', '.join(values)}: not with affine, which has all of the place")
+        matrix = numpy.asarray(affine, dtype=float)
+        if matrix.shape != (4, 4) or not numpy.isfinite(matrix).all() or (matrix[3] != (0, 0, 0, 1)).any() \
+                or numpy.linalg.matrix_rank(matrix) < 4:
+            raise ValueError("affine must be a matrix of 4 x 4 finite numbers with independent columns and the last row 0, 0, 0, 1, "
+                             f"not {matrix.tolist()}")
+        values["affine"] = matrix
     return values
+
+
+def in_space(place: Mapping[str, Any], space: str) -> Dict[str, Any]:
+    """With spacing, origin and direction in place of an affine, which is in RAS."""
+    if "affine" not in place:
+        return dict(place)
+    columns = place["affine"][:3] if space == "RAS" else place["affine"][:3] * [[-1.0], [-1.0], [1.0]]
+    spacing, direction = apart(columns[:, :3])
+    return {"spacing": [float(length) for length in spacing], "origin": [float(x) for x in columns[:, 3]], "direction": direction}
+
+
+def apart(columns: NDArray[Any]) -> Tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
+    """Spacing and direction of steps from voxel to voxel."""
+    lengths = numpy.linalg.norm(columns, axis=0)
+    return lengths, columns / lengths
+
+
+def with_unit_directions(spacing: ArrayLike, direction: NDArray[Any]) -> Tuple[ArrayLike, NDArray[numpy.float64]]:
+    """Spacing and direction of VTK or ITK, which take directions of any length: it belongs to the spacing."""
+    lengths = numpy.linalg.norm(direction, axis=0)
+    is_off = (abs(lengths - 1.0) > _ROUNDED).any() and lengths.all()
+    return apart(direction * spacing) if is_off else (spacing, direction)
 
 
 def spacing_of(values: ArrayLike) -> List[float]:
@@ -287,6 +388,10 @@ def direction_of(values: ArrayLike) -> NDArray[numpy.float64]:
     result = numpy.array(matrix).reshape(3, 3)
     if not numpy.isfinite(result).all() or numpy.linalg.matrix_rank(result) < 3:
         raise ValueError(f"direction is {matrix}; its columns must be independent")
+    lengths = numpy.linalg.norm(result, axis=0)
+    if (abs(lengths - 1.0) > _ROUNDED).any():
+        raise ValueError("direction: its columns must have the length 1, and they have "
+                         + ", ".join(f"{length:.6g}" for length in lengths) + "; if it is a part of an affine, pass the whole as affine=")
     return result
 
 
@@ -317,63 +422,3 @@ def _stored(voxels: NDArray[Any]) -> NDArray[Any]:
     if kind == "f" and size not in (4, 8):
         return voxels.astype(numpy.float32 if size < 4 else numpy.float64)
     return voxels.astype(voxels.dtype.newbyteorder("<"), copy=False)
-
-
-def _at_times(image: Image, times: ArrayLike) -> Image:
-    result = Image(image.voxels, spacing=image.spacing, origin=image.origin, direction=image.direction, times=times)
-    result.mask, result.field_data = image.mask, image.field_data
-    return result
-
-
-def from_components(voxels: NDArray[Any], mask: Optional[NDArray[numpy.bool_]], times: Optional[ArrayLike],
-                    place: Mapping[str, Any]) -> Image:
-    """Of an array indexed [k, j, i] or, of several components, [k, j, i, component]: frames, if there are times."""
-    if voxels.ndim == 4:
-        if times is None:
-            raise ValueError(f"the image has {voxels.shape[3]} components in each voxel: if they are time frames, pass "
-                             "their times (times=[0, 1, ...]); of colours or vectors, extract one component, or make "
-                             "labels of them")
-        voxels = numpy.moveaxis(voxels, -1, 0)
-        mask = None if mask is None else numpy.broadcast_to(mask, voxels.shape)
-    image = Image(voxels, times=times, **place)
-    image.mask = mask
-    return image
-
-
-def _from_itk(image: Any, times: Optional[ArrayLike]) -> Image:
-    """Of ITK or SimpleITK. The fourth axis of an image of four dimensions is time."""
-    if type(image).__module__.startswith("SimpleITK"):
-        import SimpleITK
-        dimension = image.GetDimension()
-        components = image.GetNumberOfComponentsPerPixel()
-        voxels = SimpleITK.GetArrayViewFromImage(image)
-        direction = numpy.reshape(image.GetDirection(), (dimension, dimension))
-    else:
-        import itk
-        dimension = image.GetImageDimension()
-        components = image.GetNumberOfComponentsPerPixel()
-        voxels = itk.array_view_from_image(image)
-        direction = itk.array_from_matrix(image.GetDirection())
-    if dimension not in (3, 4) or dimension == 4 and components > 1:
-        raise ValueError(f"the image has {dimension} dimensions and {components} components in each voxel; images of three "
-                         "dimensions are meshed, and of four with one component")
-    spacing, origin = list(image.GetSpacing()), list(image.GetOrigin())
-    place: Dict[str, Any] = {"spacing": spacing[:3], "origin": origin[:3], "direction": direction[:3, :3], "space": "LPS"}
-    if dimension == 4:
-        return Image(voxels, times=times if times is not None else
-                     [origin[3] + frame * spacing[3] for frame in range(voxels.shape[0])], **place)
-    return from_components(voxels, None, times, place)
-
-
-def _from_nibabel(image: Any, times: Optional[ArrayLike]) -> Image:
-    """Of nibabel, whose arrays are indexed [i, j, k], and whose affine is in RAS."""
-    voxels = numpy.asanyarray(image.dataobj).T
-    units = image.header.get_xyzt_units() if hasattr(image.header, "get_xyzt_units") else ("mm", "sec")
-    length, duration = ({"meter": 1e3, "micron": 1e-3, "msec": 1e-3, "usec": 1e-6}.get(unit, 1.0) for unit in units)
-    affine = numpy.diag((-length, -length, length, 1.0)) @ image.affine
-    spacing = numpy.linalg.norm(affine[:3, :3], axis=0)
-    if times is None and voxels.ndim == 4:
-        step = float(image.header.get_zooms()[3]) or 1.0
-        first = float(image.header["toffset"]) if "toffset" in image.header else 0.0
-        times = [duration * (first + step * frame) for frame in range(len(voxels))]
-    return Image(voxels, spacing=spacing, origin=affine[:3, 3], direction=affine[:3, :3] / spacing, times=times, space="LPS")

@@ -13,11 +13,12 @@ from numpy.typing import ArrayLike
 
 from . import program
 from .fields import Label
-from .files import in_words, mesh_file, number_list, temporary_folder
-from .images import Image, Path, image_of, place_of
-from .meshes import Mesh
-from .meshing import input_of, labels_of
+from .files import Path, in_words, number_list, temporary_folder
+from .images import Image
+from .meshes import Mesh, mesh_options
+from .meshing import labels_of
 from .program import Progress
+from .sources import image_of, input_of, reading_of
 
 
 def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
@@ -26,6 +27,7 @@ def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
             facet_angle: Optional[float] = None, smallest_component: Optional[int] = None,
             spacing: Optional[ArrayLike] = None, origin: Optional[ArrayLike] = None,
             direction: Optional[ArrayLike] = None, times: Optional[ArrayLike] = None,
+            affine: Optional[ArrayLike] = None, scalars: Optional[str] = None,
             time_scale: Optional[float] = None, threads: int = 0,
             progress: Optional[Progress] = None) -> Dict[str, Any]:
     """Measures a mesh of labelled tetrahedra or pentatopes, made by Voxplex or another program.
@@ -52,10 +54,12 @@ def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
     smallest_component
         Connected components of the image with at least this number of voxels, and the largest of each label,
         are looked for. Default 8.
-    spacing, origin, direction
+    spacing, origin, direction, affine
         Of an image that is an array or a file, as for :func:`mesh`.
     times
         Of the frames of a series, as for :func:`mesh`. Without an image, the times at which pentatopes are cut.
+    scalars
+        Of an image of VTK or PyVista, as for :func:`mesh`.
     time_scale
         With which pentatopes were meshed. Default 1.
     threads, progress
@@ -88,10 +92,10 @@ def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
     >>> figures["hausdorff"]["voxels"]["distance"] < 1.5 * 1.5
     True
     """
-    source = None if image is None else image_of(image, place_of(spacing, origin, direction), times)
-    geometry = place_of(spacing, origin, direction)
-    if source is None and (labels is not None or geometry):
-        raise ValueError(f"{', '.join(geometry) or 'labels'}: only with an image")
+    reading = reading_of(locals())
+    source = None if image is None else image_of(image, reading, times, scalars)
+    if source is None and (labels is not None or reading):
+        raise ValueError(f"{', '.join(reading) or 'labels'}: only with an image")
     if hasattr(mesh, "GetCellData"):
         mesh = Mesh.from_vtk(mesh)
     space = mesh.space if isinstance(mesh, Mesh) else None
@@ -99,7 +103,7 @@ def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
         raise ValueError(f"the mesh is in {space} coordinates, the image in {source.space}")
     with temporary_folder() as folder:
         report = os.path.join(folder, "quality.json")
-        arguments = ["--mesh=" + mesh_file(mesh, folder), "--stats=" + report,
+        arguments = [*mesh_options(mesh, folder), "--stats=" + report,
                      "--hausdorff" if hausdorff and source is not None else "--quality", f"--threads={int(threads)}"]
         for option, value in (("smoothing", smoothing), ("radius-edge", radius_edge), ("facet-angle", facet_angle),
                               ("smallest-component", smallest_component), ("time-scale", time_scale)):
@@ -108,9 +112,7 @@ def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
         if labels is not None:
             arguments += labels_of(labels, source.names if isinstance(source, Image) else None)
         if source is not None:
-            arguments += input_of(source, folder, False, geometry, times)
-            if not isinstance(source, Image) and space is not None:
-                arguments.append("--space=" + space.lower())
+            arguments += input_of(source, folder, False, {"space": space or "LPS", **reading}, times)
         elif times is not None:
             arguments += number_list("frame-times", numpy.ravel(times))
         program.run(arguments, progress, in_words(folder))

@@ -5,10 +5,10 @@
 from __future__ import annotations
 
 import os
-from typing import Any, List, Optional, Sequence, Tuple
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 try:
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
@@ -24,41 +24,48 @@ try:
 except ImportError as missing:
     raise ImportError(f"this needs VTK 9.1 or newer (pip install 'vtk>=9.1'): {missing}", name="vtkmodules") from missing
 
+from . import program
 from .fields import TEXTS, Fields, texts_of
-from .files import read_segmentation, temporary_folder
-from .images import Image, from_components
+from .files import temporary_folder
 from .xmlfiles import ACTIVE, CELL_TYPE, CORNERS, IDS, Arrays, check, native
 
 _GHOSTS = "vtkGhostType"
 
 
-def image_to_vtk(image: Image) -> Any:
-    """A vtkImageData; of a time series a list of them, each with its time."""
-    if not image.is_series:
-        return _frame_to_vtk(image, image.voxels, image.mask)
+class Frame(NamedTuple):
+    """An image without time. Masked voxels are hidden."""
+
+    voxels: NDArray[Any]
+    mask: Optional[NDArray[numpy.bool_]]
+    spacing: Any
+    origin: Any
+    direction: Any
+    field_data: Fields
+
+
+def frame_from_vtk(image: Any, scalars: Optional[str], has_times: bool) -> Frame:
+    """Its voxels are indexed [k, j, i] or, if they have several components, [k, j, i, component]."""
+    if not isinstance(image, vtkImageData):
+        raise TypeError(f"image must be a vtkImageData, not {type(image).__name__}")
+    image = _with_labels_active(image, scalars, has_times)
+    voxels = _voxels(image)
+    return Frame(voxels, _mask(image, voxels), *_place(image), _fields(image.GetFieldData()))
+
+
+def frames_of(data: Any) -> Tuple[List[Any], Optional[List[float]]]:
+    """What a data object is, or an algorithm makes, at each of its times."""
+    if not isinstance(data, vtkAlgorithm):
+        return [data], None
+    data.UpdateInformation()
+    information = data.GetOutputInformation(0)
+    times = list(information.Get(Pipeline.TIME_STEPS())) if information.Has(Pipeline.TIME_STEPS()) else []
     frames = []
-    for number, time in enumerate(image.times):
-        frame = _frame_to_vtk(image, image.voxels[number], None if image.mask is None else image.mask[number])
-        frame.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), time)
-        frames.append(frame)
-    return frames
-
-
-def image_from_vtk(data: Any, times: Optional[ArrayLike]) -> Image:
-    """Of a vtkImageData or an algorithm."""
-    if isinstance(data, vtkAlgorithm):
-        data, steps = _outputs(data)
-        if len(data) > 1:
-            return Image.from_vtk(data, steps if times is None else times)
-        data = data[0]
-    if not isinstance(data, vtkImageData):
-        raise TypeError(f"image must be a vtkImageData, not {type(data).__name__}")
-    voxels = _voxels(data)
-    spacing, origin, direction = _place(data)
-    image = from_components(voxels, _mask(data, voxels), times,
-                            {"spacing": spacing, "origin": origin, "direction": direction})
-    image.field_data = _fields(data.GetFieldData())
-    return image
+    for time in times or [None]:
+        data.Update() if time is None else data.UpdateTimeStep(time)
+        output = data.GetOutputDataObject(0)
+        frames.append(output.NewInstance())
+        frames[-1].ShallowCopy(output)
+    return frames, times if len(times) > 1 else None
 
 
 def frame_times(frames: Sequence[Any]) -> Optional[List[float]]:
@@ -124,27 +131,37 @@ def mesh_from_vtk(data: vtkPointSet) -> Arrays:
                   _fields(data.GetFieldData()))
 
 
-def _outputs(algorithm: vtkAlgorithm) -> Tuple[List[Any], Optional[List[float]]]:
-    """What an algorithm makes, at each of its times."""
-    algorithm.UpdateInformation()
-    information = algorithm.GetOutputInformation(0)
-    times = list(information.Get(Pipeline.TIME_STEPS())) if information.Has(Pipeline.TIME_STEPS()) else []
-    frames = []
-    for time in times or [None]:
-        algorithm.Update() if time is None else algorithm.UpdateTimeStep(time)
-        output = algorithm.GetOutputDataObject(0)
-        frames.append(output.NewInstance())
-        frames[-1].ShallowCopy(output)
-    return frames, times if len(times) > 1 else None
+def _with_labels_active(image: vtkImageData, name: Optional[str], has_times: bool) -> vtkImageData:
+    """A copy that shares the arrays, whose active scalars are the labels: the array of this name, the active one, or the only one."""
+    attributes = [image.GetPointData(), image.GetCellData()]
+    arrays = [(data, n, data.GetArray(n)) for data in attributes for n in range(data.GetNumberOfArrays())]
+    found = [row for row in arrays if row[2] is not None and row[2].GetName() != _GHOSTS]
+    active = [row for row in found if row[0].IsArrayAnAttribute(row[1]) == vtkDataSetAttributes.SCALARS]
+    if name is not None:
+        found, active = ([row for row in rows if row[2].GetName() == name] for rows in (found, active))
+    elif not active:
+        found = [row for row in found if row[0].IsArrayAnAttribute(row[1]) < 0 and (row[2].GetNumberOfComponents() > 1) == has_times]
+    info = getattr(image, "active_scalars_info", None)  # PyVista knows one active array, VTK one of points and one of cells
+    if info is not None and info.association.name == "CELL":
+        active.reverse()
+    chosen = active[:1] or found
+    if not chosen:
+        raise ValueError("the image has no active scalars, neither of points nor of cells" if name is None else
+                         f"the image has no array {name!r}, neither of points nor of cells")
+    if len(chosen) > 1:
+        names = ", ".join(f"{array.GetName()!r} of the {'points' if data is attributes[0] else 'cells'}" for data, _, array in chosen)
+        raise ValueError(f"the image has several arrays that could be labels ({names}); choose one with scalars=, or make it active")
+    result = vtkImageData()
+    result.ShallowCopy(image)
+    for data, copy in zip(attributes, (result.GetPointData(), result.GetCellData())):
+        copy.SetActiveAttribute(chosen[0][1] if data is chosen[0][0] else -1, vtkDataSetAttributes.SCALARS)
+    return result
 
 
 def _scalars(image: vtkImageData) -> Tuple[Any, bool]:
     """The labels, and whether they are those of cells."""
     points = image.GetPointData().GetScalars()
-    scalars = points or image.GetCellData().GetScalars()
-    if scalars is None:
-        raise ValueError("the image has no active scalars, neither of points nor of cells")
-    return scalars, points is None
+    return points or image.GetCellData().GetScalars(), points is None
 
 
 def _voxels(image: vtkImageData) -> NDArray[Any]:
@@ -167,11 +184,13 @@ def _mask(image: vtkImageData, voxels: NDArray[Any]) -> Optional[NDArray[numpy.b
     ones = _named("Labels", numpy.ones(voxels.shape[:3], numpy.uint8).reshape(-1))
     (shown.GetCellData() if _scalars(image)[1] else shown.GetPointData()).SetScalars(ones)
     with temporary_folder() as folder:
+        read = os.path.join(folder, "image.nrrd")
         writer = vtkXMLImageDataWriter()
         writer.SetFileName(os.path.join(folder, "image.vti"))
         writer.SetInputData(shown)
         writer.Write()
-        return read_segmentation(writer.GetFileName()).voxels == 0
+        program.run(["--input=" + writer.GetFileName(), "--save-image=" + read])
+        return numpy.fromfile(read, numpy.uint8)[-ones.GetNumberOfValues():].reshape(voxels.shape[:3]) == 0
 
 
 def _place(image: vtkImageData) -> Tuple[Any, Any, Any]:
@@ -183,12 +202,15 @@ def _place(image: vtkImageData) -> Tuple[Any, Any, Any]:
     return spacing, numpy.array(image.GetOrigin()) + direction @ (first * spacing), direction
 
 
-def _frame_to_vtk(image: Image, voxels: NDArray[Any], mask: Optional[NDArray[numpy.bool_]]) -> vtkImageData:
-    result = vtkImageData()
+def frame_to_vtk(frame: Frame, time: Optional[float]) -> vtkImageData:
+    """A vtkImageData that shares the voxels."""
+    result, voxels, mask = vtkImageData(), frame.voxels, frame.mask
     result.SetDimensions(*reversed(voxels.shape))
-    result.SetSpacing(*image.spacing)
-    result.SetOrigin(*image.origin)
-    result.SetDirectionMatrix(*image.direction.reshape(-1))
+    result.SetSpacing(*frame.spacing)
+    result.SetOrigin(*frame.origin)
+    result.SetDirectionMatrix(*frame.direction.reshape(-1))
+    if time is not None:
+        result.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), time)
     if mask is not None:
         voxels = numpy.where(mask, voxels.dtype.type(numpy.nan if voxels.dtype.kind == "f" else 0), voxels)
     if voxels.dtype == numpy.bool_:
@@ -199,7 +221,7 @@ def _frame_to_vtk(image: Image, voxels: NDArray[Any], mask: Optional[NDArray[num
     if mask is not None:
         hidden = numpy.where(mask.reshape(-1), numpy.uint8(vtkDataSetAttributes.HIDDENPOINT), numpy.uint8(0))
         result.GetPointData().AddArray(_named(_GHOSTS, hidden))
-    _set_fields(result.GetFieldData(), image.field_data)
+    _set_fields(result.GetFieldData(), frame.field_data)
     return result
 
 

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import struct
-from typing import Any, Dict, List, Mapping, Union
+from typing import Any, Dict, List, Mapping, NamedTuple, Union
 from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
@@ -22,16 +22,14 @@ IDS = ("PointIds",)  # numbers of points, which VTK has a type for
 CELL_TYPE = {corners: cell_type for cell_type, corners in CORNERS.items()}
 
 
-class Arrays:
+class Arrays(NamedTuple):
     """Those of a file: points, cells (one row of point numbers each), and data by name."""
 
-    def __init__(self, points: NDArray[Any], cells: NDArray[Any], point_data: Dict[str, NDArray[Any]],
-                 cell_data: Dict[str, NDArray[Any]], field_data: Fields) -> None:
-        self.points = points
-        self.cells = cells
-        self.point_data = point_data
-        self.cell_data = cell_data
-        self.field_data = field_data
+    points: NDArray[Any]
+    cells: NDArray[Any]
+    point_data: Dict[str, NDArray[Any]]
+    cell_data: Dict[str, NDArray[Any]]
+    field_data: Fields
 
 
 def check(arrays: Arrays) -> None:

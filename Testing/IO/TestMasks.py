@@ -477,7 +477,7 @@ class InMemory(MaskTestCase):
         images = [self.image(one, name) for one, name in zip(self.BOXES[:3], ("liver", "Labels", "Labels"))]
         self.assertEqual(self.names(self.join(*images)), {1: "liver"})
         labelled = voxplex.Image(self.BOXES[2], names={1: "Spleen"}, **self.PLACE)
-        labelled.field_data["LabelColors"] = np.array([[1.0, 0.0, 0.0]])
+        labelled.colors = {1: (1.0, 0.0, 0.0)}
         images[2] = labelled.to_vtk()
         joiner = self.join(*images)
         self.assertEqual(table_of(joiner.GetOutput()), {1: ("liver", None), 3: ("Spleen", (255, 0, 0))})

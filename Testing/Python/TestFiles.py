@@ -111,11 +111,159 @@ class Files(unittest.TestCase):
                              ("origin is .*nan.*; coordinates must be finite", dict(origin=(numpy.nan, 0, 0))),
                              ("direction has 3 numbers, not 9", dict(direction=(1, 0, 0))),
                              ("direction is .*; its columns must be independent", dict(direction=numpy.zeros((3, 3)))),
-                             ("direction is .*; its columns must be independent", dict(direction=numpy.ones(9)))):
+                             ("direction is .*; its columns must be independent", dict(direction=numpy.ones(9))),
+                             ("direction: its columns must have the length 1, and they have 2, 2, 0.5; .*affine=",
+                              dict(direction=numpy.diag((2, -2, 0.5)))),
+                             ("direction: .* have 1, 1, 1.002;", dict(direction=numpy.diag((1, 1, 1.002)))),
+                             ("spacing, origin: not with affine", dict(spacing=(1, 1, 1), origin=(0, 0, 0), affine=numpy.eye(4))),
+                             ("affine must be a matrix of 4 x 4", dict(affine=numpy.eye(3))),
+                             ("affine must .* the last row 0, 0, 0, 1", dict(affine=numpy.ones((4, 4)))),
+                             ("affine must .* independent", dict(affine=numpy.diag((1, 1, 0, 1)))),
+                             ("affine must .* finite", dict(affine=numpy.diag((1, 1, numpy.nan, 1))))):
             with self.subTest(words=words, place=place):
-                for call in (voxplex.read_segmentation, voxplex.mesh):
+                for call, image in ((voxplex.read_segmentation, self.image), (voxplex.mesh, self.image), (voxplex.mesh, self.labels),
+                                    (voxplex.Image, self.labels), (voxplex.read_segmentation, {"a": self.labels})):
                     with self.assertRaisesRegex(ValueError, words):
-                        call(self.image, **place)
+                        call(image, **place)
+
+    def test_affine(self):
+        """Of indices to RAS, as nibabel's, of arrays, masks and files; in memory the place is LPS, or RAS if it is asked for."""
+        affine = numpy.eye(4)
+        affine[:3, :3], affine[:3, 3] = DIRECTION * SPACING, ORIGIN
+        affine[0, 1] += 0.25  # sheared
+        for space, signs in (("LPS", (-1, -1, 1)), ("RAS", (1, 1, 1))):
+            masks = {"a": self.labels, "b": self.image}
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # masks overlap
+                found = [voxplex.Image(self.labels, affine=affine, space=space),
+                         voxplex.read_segmentation(self.image, affine=affine, space=space),
+                         voxplex.read_segmentation(masks, affine=affine, space=space)]
+            for image in found:
+                numpy.testing.assert_allclose(image.direction * image.spacing, numpy.diag(signs) @ affine[:3, :3], atol=1e-6)
+                numpy.testing.assert_allclose(image.origin, affine[:3, 3] * signs)
+                self.assertEqual(image.space, space)
+            mesh = voxplex.mesh(found[0], 2.0, threads=1)
+            self.assertEqual(voxplex.quality(mesh, self.image, affine=affine)["image"], voxplex.quality(mesh, found[0])["image"])
+        for source in (self.image, self.labels, {"low": self.labels == 5, "high": self.labels == 9}):
+            mesh = voxplex.mesh(source, 2.0, affine=affine, threads=1)
+            self.assertEqual(mesh.space, "LPS")
+            numpy.testing.assert_allclose(mesh.points, voxplex.mesh(voxplex.Image(self.labels, affine=affine), 2.0, threads=1).points,
+                                          rtol=1e-6, atol=1e-5)
+        with self.assertRaisesRegex(ValueError, "affine: only for arrays and files"):
+            voxplex.mesh(found[0], affine=affine)
+
+    def test_place_of_masks_is_in_space(self):
+        """Origin and direction are in the coordinates of space, of arrays without a space of their own, too."""
+        write_nrrd(self.image, (self.labels > 0).astype(numpy.uint8))
+        for masks in ({"a": self.labels > 0}, {"a": self.image}):
+            image = voxplex.read_segmentation(masks, space="RAS", origin=ORIGIN, direction=DIRECTION)
+            numpy.testing.assert_allclose(image.origin, ORIGIN)
+            numpy.testing.assert_allclose(image.direction, DIRECTION, atol=1e-6)
+            self.assertEqual(image.space, "RAS")
+
+    def test_mesh_reads_as_read_segmentation(self):
+        """Each way of reading, of files, masks and frames; what does not apply is refused."""
+        first, second, fine = self.folder / "first.nrrd", self.folder / "second.nrrd", self.folder / "fine.nrrd"
+        write_nrrd(first, (self.labels > 0).astype(numpy.uint8))
+        write_nrrd(second, 0.3 + 0.4 * (self.labels == 9).astype(numpy.float32))
+        second.write_bytes(second.read_bytes().replace(b"float32", b"float"))
+        write_nrrd(fine, (self.labels == 9).astype(numpy.uint8))
+        fine.write_bytes(fine.read_bytes().replace(b"space origin: (10.0", b"space origin: (10.4"))
+        table = self.folder / "table.txt"
+        table.write_text("5 kidney\n9 bladder\n")
+        memory = {"first": self.labels > 0, "second": 0.3 + 0.4 * (self.labels == 9)}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # masks overlap
+            for source, ways in (([first, second], dict(overlap="order")), ([first, second], dict(mask_threshold=0.2)),
+                                 (memory, dict(overlap="order")), (memory, dict(mask_threshold=0.2)),
+                                 ([first, fine], dict(resample_masks=True)), (self.image, dict(label_table=table)),
+                                 (self.image, dict(space="RAS")), (self.image, dict(space="RAS", origin=(1, 2, 3))),
+                                 (memory, dict(space="RAS", origin=(1, 2, 3)))):
+                with self.subTest(ways):
+                    image = voxplex.read_segmentation(source, **ways)
+                    expected, mesh = voxplex.mesh(image, 2.0, threads=1), voxplex.mesh(source, 2.0, threads=1, **ways)
+                    numpy.testing.assert_allclose(mesh.points, expected.points, atol=1e-9)
+                    self.assertEqual((set(mesh.labels), mesh.names, mesh.space), (set(image.voxels.flat) - {0}, expected.names, image.space))
+        array = voxplex.mesh(self.labels, 2.0, space="RAS", threads=1)
+        self.assertEqual(array.space, "RAS")
+        numpy.testing.assert_array_equal(array.points, voxplex.mesh(self.labels, 2.0, threads=1).points)
+        self.assertEqual(voxplex.mesh([beating()[0], beating()[1]], 2.0, space="RAS").space, "RAS")
+        for words, source, ways in (
+                ("^overlap: only for files and masks", self.labels, dict(overlap="order")),
+                ("^mask_threshold, resample_masks: only for files and masks", self.labels, dict(mask_threshold=0.1, resample_masks=True)),
+                ("^label_table: only for files", voxplex.Image(self.labels), dict(label_table=table)),
+                ("^series_uid: only for files", memory, dict(series_uid="1.2")),
+                ("^space: only for arrays and files", voxplex.Image(self.labels), dict(space="RAS")),
+                ("^overlap: only for files and masks", [beating()[0], beating()[1]], dict(overlap="order")),
+                ("^space is 'XYZ'", self.labels, dict(space="XYZ"))):
+            for call in (voxplex.mesh, voxplex.repair):
+                with self.subTest(words=words, call=call), self.assertRaisesRegex(ValueError, words):
+                    call(source, **ways)
+
+    def test_write_image(self):
+        """What is written is read as the same image."""
+        place = dict(spacing=SPACING, origin=ORIGIN, direction=DIRECTION)
+        names = {5: "liver; \u00e9, \"x\"", 9: "spleen"}
+        for array, space, times in ((self.labels, None, None), (self.labels.astype(numpy.float32), "RAS", None), (self.labels > 0, "LPS", None),
+                                    (5 * beating(), "RAS", (0.5, 1.0, 2.0, 4.25)), (self.labels.astype(">u8"), "LPS", None)):
+            image = voxplex.Image(array, names=names, space=space, times=times, **place)
+            image.colors = {5: (0.1, 0.2, 1.0)}
+            image.write(self.folder / "image.nrrd")
+            read = voxplex.read_segmentation(self.folder / "image.nrrd", space=space)
+            numpy.testing.assert_array_equal(read.voxels, image.voxels)
+            for name in place:
+                numpy.testing.assert_allclose(getattr(read, name), getattr(image, name), atol=1e-12)
+            present = set(numpy.unique(array).tolist())
+            self.assertEqual((read.space, read.times, read.names, read.colors),
+                             (space or "LPS", image.times, {label: names[label] for label in names if label in present},
+                              {5: [0.1, 0.2, 1.0]} if 5 in present else {}))
+        voxplex.Image(numpy.ma.array(self.labels, mask=self.labels == 9)).write(self.folder / "image.nrrd")
+        numpy.testing.assert_array_equal(voxplex.read_segmentation(self.folder / "image.nrrd").voxels, numpy.where(self.labels == 9, 0, self.labels))
+        for name, words in (("image.nii", "^path: images are saved as .nrrd"), ("none/image.nrrd", "none")):
+            with self.assertRaisesRegex(voxplex.FileError, words):
+                image.write(self.folder / name)
+
+    def test_read_mesh(self):
+        """Meshes and interfaces come back as they were."""
+        for source in (self.image, self.series):
+            mesh = voxplex.mesh(voxplex.read_segmentation(source, space="RAS"), 2.0)
+            mesh.names, mesh.colors = {label: f"tissue {label}" for label in set(mesh.labels.tolist())}, {}
+            mesh.cell_data["Weight"] = numpy.arange(len(mesh.cells)) / 7
+            interfaces = self.folder / ("plc.vtp" if source is self.image else "plc.vtu")
+            mesh.write(self.folder / "mesh.vtu", interfaces=interfaces)
+            back = voxplex.read_mesh(self.folder / "mesh.vtu", interfaces)
+            for ours, theirs in ((mesh, back), (mesh.interfaces, back.interfaces)):
+                for name in ("points", "cells", "labels"):
+                    numpy.testing.assert_array_equal(getattr(ours, name), getattr(theirs, name))
+                self.assertEqual((theirs.names, theirs.space), (mesh.names, "RAS"))
+                for data in ("point_data", "cell_data"):
+                    self.assertEqual(set(getattr(ours, data)), set(getattr(theirs, data)))
+            numpy.testing.assert_array_equal(back.cell_data["Weight"], mesh.cell_data["Weight"])
+            numpy.testing.assert_array_equal(back.interfaces.point_ids, mesh.interfaces.point_ids)
+            made = voxplex.read_mesh(self.folder / "mesh.vtu").interfaces
+            self.assertEqual((len(made.cells), made.names), (len(mesh.interfaces.cells), mesh.names))
+        with self.assertRaisesRegex(FileNotFoundError, "none.vtu"):
+            voxplex.read_mesh(self.folder / "none.vtu")
+        for path, words in ((self.image, "not a .vtu file"), (self.folder / "plc.vtu", "Label")):
+            with self.assertRaisesRegex(voxplex.FileError, words):
+                voxplex.read_mesh(path)
+
+    def test_write_interfaces(self):
+        """Alone, as with their mesh."""
+        mesh, series = voxplex.mesh(self.image, 2.0), voxplex.mesh(self.series, 2.0, pick_slivers=False)
+        for one, extensions in ((mesh, (".vtp", ".vtu", ".stl", ".ply", ".vtk")), (series, (".vtu",))):
+            for extension in extensions:
+                alone, together = self.folder / ("alone" + extension), self.folder / ("together" + extension)
+                one.interfaces.write(alone)
+                one.write(interfaces=together)
+                self.assertEqual(alone.read_bytes(), together.read_bytes(), extension)
+        part = voxplex.Interfaces(mesh.interfaces.points, mesh.interfaces.cells[:5])
+        part.write(self.folder / "part.stl")
+        self.assertEqual((self.folder / "part.stl").stat().st_size, 84 + 5 * 50)
+        for interfaces, name, words in ((mesh.interfaces, "a.inp", "^path: the format '.inp' is not known"), (series.interfaces, "a.stl", "use .vtu"),
+                                        (mesh.interfaces, "none/a.stl", "none")):
+            with self.assertRaisesRegex(voxplex.FileError, words):
+                interfaces.write(self.folder / name)
 
     def test_messages_speak_of_arguments(self):
         path = self.folder / "plain.nrrd"
@@ -223,7 +371,7 @@ class Files(unittest.TestCase):
         frames = voxplex.mesh([{"ball": frame} for frame in beating()], 2.0)
         self.assertEqual((frames.cells.shape[1], frames.names), (5, {1: "ball"}))
         series = [{"none": 0 * frame, "ball": frame} for frame in beating()]
-        self.assertEqual(voxplex.mesh(series, 2.0).names, {1: "none", 2: "ball"})
+        self.assertEqual(voxplex.mesh(series, 2.0).names, {2: "ball"})
         series[1] = {"ball": series[1]["ball"], "none": series[1]["none"]}
         for wrong in (series, [series[0], beating()[1]]):
             with self.assertRaisesRegex(ValueError, "must have the same names, in the same order"):
@@ -321,8 +469,7 @@ class Files(unittest.TestCase):
             "Segment1_ID:=Segment_2", "Segment1_LabelValue:=9", "Segment1_Layer:=0", "Segment1_Name:=spleen"])
         self.assertEqual(voxplex.read_segmentation(path).names, {5: "liver", 9: "spleen"})
         mesh = voxplex.mesh(path, 1.5, labels=["spleen"])
-        self.assertEqual(set(mesh.labels), {9})
-        self.assertEqual(mesh.names, {5: "liver", 9: "spleen"})
+        self.assertEqual((set(mesh.labels), mesh.names, mesh.interfaces.names), ({9}, {9: "spleen"}, {9: "spleen"}))
         table = self.folder / "table.txt"
         table.write_text("5 kidney\n9 bladder\n")
         image = voxplex.read_segmentation(self.image, label_table=table)

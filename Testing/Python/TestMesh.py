@@ -135,10 +135,11 @@ class Inputs(unittest.TestCase):
         mesh = voxplex.mesh(image, 1.5)
         for part in (mesh, mesh.interfaces):
             self.assertEqual(part.names, {5: "liver", 9: "spleen"})
-            self.assertEqual(part.field_data["SPACE"], ["LPS"])
+            self.assertEqual(part.space, "LPS")
         plain = voxplex.mesh(brick(), 1.5)
-        self.assertEqual(plain.names, {})
-        self.assertNotIn("SPACE", plain.field_data)
+        self.assertEqual((plain.names, plain.space, plain.field_data), ({}, None, {}))
+        mesh = voxplex.mesh(image, 1.5, labels=[9])
+        self.assertEqual((mesh.names, mesh.interfaces.names), ({9: "spleen"},) * 2)
 
 
 class Places(unittest.TestCase):
@@ -149,7 +150,7 @@ class Places(unittest.TestCase):
         sizes = voxplex.Image(numpy.full(brick().shape, 0.8), origin=(30, 20, 10), space="RAS")
         finer = voxplex.mesh(image, 2.0, size_image=sizes, threads=1)
         self.assertGreater(len(finer.cells), 1.5 * len(voxplex.mesh(image, 2.0).cells))
-        sizes.field_data["SPACE"] = ["LPS"]
+        sizes.space = "LPS"
         with self.assertRaisesRegex(ValueError, "size_image is in LPS coordinates, the image in RAS"):
             voxplex.mesh(image, 2.0, size_image=sizes)
 
@@ -168,7 +169,7 @@ class Parameters(unittest.TestCase):
 
     def test_names(self):
         """In place of numbers, and in any order."""
-        for theirs, ours in ((dict(labels={"spleen"}), dict(labels=[9])),
+        for theirs, ours in ((dict(labels={"spleen"}), dict(labels=[9])), (dict(labels={"SPleen"}), dict(labels=[9])),
                              (dict(label_sizes={"spleen": 0.7}), dict(label_sizes={9: 0.7})),
                              (dict(interface_sizes={"liver": 0.9}), dict(interface_sizes={5: 0.9})),
                              (dict(interface_sizes={("spleen", "liver"): 0.6}), dict(interface_sizes={(5, 9): 0.6}))):
@@ -233,6 +234,78 @@ class Parameters(unittest.TestCase):
         facets = {tuple(sorted(cell)) for corners in ((0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3))
                   for cell in mesh.cells[:, corners].tolist()}
         self.assertTrue(facets.issuperset(tuple(sorted(cell)) for cell in interfaces.point_ids[interfaces.cells].tolist()))
+
+
+class Objects(unittest.TestCase):
+    """Meshes as plain data."""
+
+    def test_names(self):
+        """Writing into them is enough, on both parts; class and other meshes do not change."""
+        image = voxplex.Image(brick(), names={5: "liver", 9: "spleen"})
+        mesh, other = voxplex.mesh(image, 3.0), voxplex.mesh(image, 3.0)
+        mesh.names[5] = "lung"
+        mesh.statistics["note"] = 1
+        image.names[9] = "heart"
+        self.assertEqual((mesh.names, mesh.interfaces.names), ({5: "lung", 9: "spleen"},) * 2)
+        self.assertEqual((other.names, "note" in other.statistics), ({5: "liver", 9: "spleen"}, False))
+        self.assertEqual(voxplex.Mesh(mesh.points, mesh.cells).statistics, {})
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "mesh.inp")
+            mesh.write(path)
+            with open(path, encoding="utf-8") as file:
+                self.assertRegex(file.read(), "(?s)=lung.*=spleen.*SURFACE.*spleen__lung")
+
+    def test_made_by_hand(self):
+        points = numpy.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]])
+        mesh = voxplex.Mesh(points, numpy.array([[0, 1, 2, 3], [1, 2, 3, 4]]), cell_data={"Label": numpy.array([7, 3])}, names={3: "a<b"})
+        numpy.testing.assert_allclose(mesh.volumes, (1 / 6, 1 / 3))
+        self.assertEqual({label: round(volume, 9) for label, volume in mesh.label_volumes().items()}, {3: 0.333333333, 7: 0.166666667})
+        self.assertEqual(list(mesh.label_volumes()), [3, 7])
+        self.assertIn("<td>3</td><td>a&lt;b</td><td>1</td><td>0.333333</td>", mesh._repr_html_())
+        with self.assertRaisesRegex(ValueError, "no point array Time"):
+            mesh.slice(0.0)
+        self.assertIn("20 x 16 x 12 voxels", voxplex.Image(brick(), names={5: "liver"})._repr_html_())
+
+    def test_example(self):
+        """Each tissue is in one piece, has a name and a colour, and nearly the volume of its voxels; two calls share nothing."""
+        knee = voxplex.example()
+        voxplex.example().names[1] = "changed"
+        labels = sorted(set(knee.voxels.flat) - {0})
+        self.assertEqual((list(knee.names), list(knee.colors), knee.space), (labels, labels, "LPS"))
+        mesh = voxplex.mesh(knee, 3.0)
+        self.assertEqual((mesh.names, mesh.colors), (knee.names, {label: list(color) for label, color in knee.colors.items()}))
+        self.assertEqual(mesh.statistics["broken_components"], [])
+        for label, volume in mesh.label_volumes().items():
+            self.assertAlmostEqual(volume / (3.375 * (knee.voxels == label).sum()), 1, delta=0.02)
+
+    def test_volumes(self):
+        mesh = voxplex.mesh(brick(), 1.5)
+        numpy.testing.assert_allclose(mesh.volumes, volumes(mesh))
+        for label, volume in mesh.label_volumes().items():
+            self.assertAlmostEqual(volume, mesh.statistics["labels"][str(label)]["volume"], places=6)
+        mesh = voxplex.mesh(beating(), 2.0, times=(0, 1, 2.5, 3))
+        numpy.testing.assert_allclose(mesh.volumes, hypervolumes(mesh))
+        self.assertIn("pentatopes", mesh._repr_html_())
+
+    def test_slice(self):
+        """Slices of all times together are the space-time mesh; data of points are interpolated."""
+        mesh = voxplex.mesh(voxplex.Image(beating(), times=(0, 1, 2.5, 4), names={1: "ball"}, space="RAS"), 2.0)
+        mesh.point_data["Double"] = 2 * mesh.times
+        nodes, weights = numpy.polynomial.legendre.leggauss(12)
+        sums = 0.0
+        for time, weight in zip(2 + 2 * nodes, 2 * weights):
+            piece = mesh.slice(time)
+            self.assertEqual((piece.cells.shape[1], piece.names, piece.space, set(piece.labels)), (4, {1: "ball"}, "RAS", {1}))
+            self.assertGreater(piece.volumes.min(), 0)
+            self.assertEqual({tuple(pair) for pair in piece.interfaces.labels}, {(1, 0)})
+            numpy.testing.assert_allclose(piece.point_data["Double"], 2 * time)
+            sums += weight * piece.volumes.sum()
+        numpy.testing.assert_allclose(sums, mesh.volumes.sum(), rtol=1e-3)
+        for time in (-0.1, 4.1, numpy.nan):
+            with self.assertRaisesRegex(ValueError, "the mesh is there from 0 to 4"):
+                mesh.slice(time)
+        for time in (0, 4):
+            self.assertGreater(len(mesh.slice(time).cells), 0)
 
 
 class SpaceTime(unittest.TestCase):
@@ -482,10 +555,17 @@ class Refusals(unittest.TestCase):
         image.names = {5: "lung", 9: "lung"}
         with self.assertRaisesRegex(ValueError, r"several labels are called 'lung': \[5, 9\]"):
             voxplex.mesh(image, labels=["lung"])
+        image.names = {5: "Lung", 9: "lung"}
+        self.assertEqual(set(voxplex.mesh(image, 3.0, labels=["Lung"]).labels), {5})
+        with self.assertRaisesRegex(ValueError, r"several labels are called 'LUNG': \[5, 9\]"):
+            voxplex.mesh(image, labels=["LUNG"])
         with self.assertRaisesRegex(ValueError, "no label is called 'heart' .there are 'lung'"):
             voxplex.mesh(image, label_sizes={"heart": 1.0})
         with self.assertRaisesRegex(ValueError, "from 1 on"):
-            image.names = {0: "air"}
+            voxplex.Image(brick(), names={0: "air"})
+        image.names[0] = "air"
+        with self.assertRaisesRegex(ValueError, "from 1 on"):
+            voxplex.mesh(image)
 
     def test_warning(self):
         with self.assertWarnsRegex(voxplex.MeshingWarning, "^Some element sizes are below") as caught:

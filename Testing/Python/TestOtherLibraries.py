@@ -6,12 +6,13 @@
 import importlib.util
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import numpy
 
 import voxplex
-from voxplex.images import image_of
+from voxplex.sources import image_of
 from phantoms import beating, brick
 
 PLACE = dict(spacing=(0.5, 1.0, 2.0), origin=(10.0, -20.0, 30.0), direction=((0, -1, 0), (1, 0, 0), (0, 0, 1)))
@@ -35,6 +36,15 @@ class Libraries(unittest.TestCase):
         theirs = self.mesh.to_meshio()
         numpy.testing.assert_array_equal(theirs.cells_dict["tetra"], self.mesh.cells)
         numpy.testing.assert_array_equal(theirs.cell_data["Label"][0], self.mesh.labels)
+        mesh = voxplex.mesh(voxplex.Image(brick(), names={5: "liver"}), 2.0)
+        import meshio
+        with tempfile.TemporaryDirectory() as folder:
+            for name, extra in (("mesh.msh", {"file_format": "gmsh22"}), ("mesh.inp", {}), ("mesh.vtu", {}), ("mesh.msh4", {"file_format": "gmsh"})):
+                meshio.write(Path(folder, name), mesh.to_meshio(), **extra)
+            groups = meshio.read(Path(folder, "mesh.msh"))
+            self.assertEqual({name: tuple(data) for name, data in groups.field_data.items()}, {"liver": (5, 3), "label_9": (9, 3)})
+            numpy.testing.assert_array_equal(groups.cell_data["gmsh:physical"][0], mesh.labels)
+            self.assertRegex(Path(folder, "mesh.inp").read_text(), "(?si)ELSET, ELSET=liver.*ELSET, ELSET=label_9")
         with self.assertRaisesRegex(ValueError, "no cells for pentatopes"):
             voxplex.mesh(beating(), 2.0).to_meshio()
 
@@ -68,6 +78,7 @@ class Libraries(unittest.TestCase):
             [numpy.array(PLACE["direction"]) * PLACE["spacing"], numpy.array(PLACE["origin"])[:, None]], [0, 0, 0, 1]])
         image = nibabel.Nifti1Image(brick().T, affine)
         self.assertTrue(same(self.mesh, voxplex.mesh(image, 2.0, threads=1)))
+        self.assertTrue(same(self.mesh, voxplex.mesh(image.get_fdata().T, 2.0, threads=1, affine=image.affine)))
         series = nibabel.Nifti1Image(beating().T, numpy.eye(4))
         series.header.set_zooms((1, 1, 1, 0.5))
         self.assertEqual(voxplex.mesh(series, 2.0).times.max(), 1.5)
@@ -76,7 +87,7 @@ class Libraries(unittest.TestCase):
     def test_nibabel_and_its_file(self):
         """They lie at the same place and time, whatever the units; without a place as nibabel says."""
         import nibabel
-        series = nibabel.Nifti1Image(beating().T, numpy.diag((-1.0, 2.0, 3.0, 1.0)) + numpy.eye(4)[:, 3:] * (4, 5, 6, 0))
+        series = nibabel.Nifti1Image(beating().T, numpy.array([[-1.0, 0, 0, 4], [0, 2, 0, 5], [0, 0, 3, 6], [0, 0, 0, 1]]))
         series.header["toffset"] = 500
         series.header.set_zooms((1, 2, 3, 250))
         with tempfile.TemporaryDirectory() as folder:
@@ -136,6 +147,57 @@ class Libraries(unittest.TestCase):
         self.assertGreater(grid.compute_cell_sizes()["Volume"].min(), 0)
         self.assertIsInstance(self.mesh.interfaces.to_pyvista(), pyvista.PolyData)
         self.assertTrue(same(self.mesh, voxplex.mesh(pyvista.wrap(voxplex.Image(brick(), **PLACE).to_vtk()), 2.0, threads=1)))
+
+    @needs("pyvista")
+    def test_plot(self):
+        """Categories with names and colours, cut open; a slice of space-time."""
+        import pyvista
+        calls = []
+
+        def show(data, **arguments):
+            calls.append((data, arguments))
+            return pyvista.plot(data, off_screen=True, **arguments)
+
+        image = voxplex.Image(brick(), names={5: "liver"})
+        image.colors = {5: (1.0, 0.0, 0.0)}
+        mesh, series = voxplex.mesh(image, 2.0), voxplex.mesh(beating(), 2.0)
+        with unittest.mock.patch("pyvista.UnstructuredGrid.plot", show), unittest.mock.patch("pyvista.PolyData.plot", show):
+            mesh.plot()
+            mesh.plot(cut="x", show_edges=False)
+            mesh.interfaces.plot()
+            mesh.interfaces.plot(cut=(0, 0, 1))
+            series.plot(time=1.0)
+        texts = [list(arguments["annotations"].values()) for _, arguments in calls]
+        self.assertEqual(texts, [["liver", "9"]] * 2 + [["liver - outside", "9 - outside", "9 - liver"]] * 2 + [["1"]])
+        whole, half = calls[0][0], calls[1][0]
+        self.assertEqual((len(mesh.cells), calls[1][1]["show_edges"], calls[0][1]["cmap"].colors[0]), (whole.n_cells, False, (1.0, 0.0, 0.0)))
+        self.assertTrue(0.2 < half.n_cells / whole.n_cells < 0.8)
+        self.assertEqual(set(half.cell_data["Label"][half.cell_data["Voxplex"] == 1]), {9})
+        pairs = calls[2][0]
+        self.assertEqual({tuple(pair) for pair in pairs.cell_data["Labels"][pairs.cell_data["Voxplex"] == 2]}, {(9, 5)})
+        self.assertLess(calls[3][0].n_cells, pairs.n_cells)
+        self.assertEqual(set(calls[4][0].celltypes), {10})
+        self.assertNotIn("Voxplex", mesh.cell_data)
+
+    @needs("pyvista")
+    def test_active_array_of_pyvista(self):
+        """One of points or cells, whatever VTK has active of both."""
+        import pyvista
+        image = pyvista.ImageData(dimensions=(4, 3, 3))
+        image.point_data["ct"], image.cell_data["labels"] = numpy.ones(36, numpy.uint8), numpy.full(12, 2, numpy.uint8)
+        for preference, name, value in (("point", "ct", 1), ("cell", "labels", 2), ("cell", "labels", 2), ("point", "ct", 1)):
+            image.set_active_scalars(name, preference=preference)
+            for frames in (image, [image, image], image.copy()):
+                self.assertEqual(voxplex.Image.from_vtk(frames).voxels.max(), value)
+        image.cell_data["ct"] = numpy.full(12, 5, numpy.uint8)
+        for preference, value in (("cell", 5), ("point", 1)):
+            image.set_active_scalars("ct", preference=preference)
+            self.assertEqual((voxplex.Image.from_vtk(image).voxels.max(), voxplex.Image.from_vtk(image, scalars="ct").voxels.max()),
+                             (value, value))
+        self.assertEqual(voxplex.Image.from_vtk(image, scalars="labels").voxels.max(), 2)
+        image.set_active_scalars(None)
+        with self.assertRaisesRegex(ValueError, "several arrays"):
+            voxplex.mesh(image)
 
     @needs("pyvista")
     def test_accessor(self):

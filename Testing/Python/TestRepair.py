@@ -51,7 +51,9 @@ class Program(ProgramTestCase):
         numpy.testing.assert_array_equal(voxels[inside], self.repaired[inside])
 
     def test_saved_image(self):
-        told = self.run_program(*OPTIONS, "--shell", "Ball=2", "--shell", "7=-1", "--save-image", "clean.nrrd")
+        told = self.run_program(*OPTIONS, "--shell", "Ball=2", "--shell", "7=-1", "--save-image", "clean.nrrd", "--stats", "told.json")
+        rows = json.loads((self.folder / "told.json").read_text())["repair"]
+        self.assertEqual([row["what"] for row in rows], ["fill-holes", "remove-spikes", "min-thickness", "shell", "shell"])
         self.assertRegex(told, r"^fill-holes: label 3 \(Ball\): 2 voxels, at \(14-15, 14, 14\)\n"
                                r"remove-spikes: label 3 \(Ball\): 5 voxels, at \(25-29, 14, 14\)\n"
                                r"min-thickness: label 7 \(Sheet\): \d+ voxels, at \([\d, -]+\)\n"
@@ -167,16 +169,15 @@ class Program(ProgramTestCase):
 class Python(ProgramTestCase):
     def test_keywords(self):
         labels, repaired = phantom()
-        image = voxplex.Image(labels)
-        image.names = {**NAMES, 20: "Elsewhere"}
-        image.field_data["LabelColors"] = numpy.eye(3)
+        image = voxplex.Image(labels, names={**NAMES, 20: "Elsewhere"})
+        image.colors = {3: (1, 0, 0), 7: (0, 1, 0)}
         mesh = voxplex.mesh(image, delta=2, fill_holes=2, remove_spikes=True, min_thickness={"Sheet": 3}, shells={"Ball": 2},
                             check_image=True)
         rows = mesh.statistics["repair"]
         self.assertEqual([(row["what"], row["label"]) for row in rows],
                          [("fill-holes", 3), ("remove-spikes", 3), ("min-thickness", 7), ("shell", 3)])
-        self.assertEqual(mesh.names, {**NAMES, 8: "Ball shell", 20: "Elsewhere"})
-        numpy.testing.assert_array_equal(mesh.field_data["LabelColors"], numpy.insert(numpy.eye(3), 2, numpy.nan, axis=0))
+        self.assertEqual(mesh.names, {**NAMES, 8: "Ball shell"})
+        self.assertEqual(mesh.colors, {3: [1, 0, 0], 7: [0, 1, 0]})
         self.assertEqual(set(mesh.labels), {3, 7, 8})
         self.assertEqual(mesh.statistics["labels"]["8"]["name"], "Ball shell")
         self.assertAlmostEqual(mesh.statistics["labels"]["3"]["volume"] / numpy.count_nonzero(repaired == 3), 1, delta=0.02)
@@ -190,6 +191,33 @@ class Python(ProgramTestCase):
             for thickness in (2.0, -2.0):
                 pairs = voxplex.mesh(image, delta=1.5, shells={1: thickness}).interfaces.labels
                 self.assertEqual({tuple(pair) for pair in numpy.sort(pairs, axis=1)}, {(0, 2), (1, 2)})
+
+    def test_repair(self):
+        """An image, which makes the same mesh; of arrays, files, series and images with a space."""
+        labels = phantom()[0]
+        ways = dict(fill_holes=2, remove_spikes=True, min_thickness={"sheet": 3}, shells={"Ball": 2})
+        image = voxplex.Image(labels, names=NAMES, space="RAS", spacing=(1, 1, 1.25), origin=(3, 4, 5))
+        image.field_data["Note"] = ["x"]
+        repaired = voxplex.repair(image, check_image=True, **ways)
+        self.assertEqual([(row["what"], row["label"]) for row in repaired.statistics["repair"]][:4],
+                         [("fill-holes", 3), ("remove-spikes", 3), ("min-thickness", 7), ("shell", 3)])
+        self.assertEqual((repaired.names, repaired.space, repaired.spacing, repaired.origin, repaired.field_data),
+                         ({**NAMES, 8: "Ball shell"}, "RAS", [1, 1, 1.25], [3, 4, 5], {"Note": ["x"]}))
+        ours, theirs = voxplex.mesh(repaired, 2.0, threads=1), voxplex.mesh(image, 2.0, threads=1, **ways)
+        numpy.testing.assert_array_equal(ours.points, theirs.points)
+        self.assertEqual(ours.names, theirs.names)
+        numpy.testing.assert_array_equal(labels, phantom()[0])
+        image.write(self.folder / "image.nrrd")
+        of_file = voxplex.repair(self.folder / "image.nrrd", space="RAS", **ways)
+        numpy.testing.assert_array_equal(of_file.voxels, repaired.voxels)
+        self.assertEqual((of_file.names, of_file.space, of_file.origin), (repaired.names, "RAS", [3, 4, 5]))
+        series = voxplex.repair([labels, labels], times=(1, 5), fill_holes=2)
+        self.assertEqual((series.times, [row["time"] for row in series.statistics["repair"]]), ([1, 5], [1, 5]))
+        self.assertEqual(voxplex.repair(labels).statistics, {"repair": []})
+        with self.assertRaisesRegex(voxplex.ArgumentError, "no label is called 'Bal'"):
+            voxplex.repair(image, shells={"Bal": 1})
+        with self.assertRaisesRegex(voxplex.MeshingError, "shells: the image has no label 5"):
+            voxplex.repair(labels, shells={5: 1})
 
     def test_name_of_a_label_that_is_absent(self):
         labels = phantom()[0]

@@ -126,6 +126,61 @@ class Images(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "scalars"):
             voxplex.Image.from_vtk(vtkImageData())
 
+    def test_lengths_of_directions(self):
+        """VTK takes matrices of any columns: their lengths belong to the spacing."""
+        image = voxplex.Image(brick(), spacing=(1, 2, 3), origin=(4, 5, 6)).to_vtk()
+        image.SetDirectionMatrix(0, -2, 0, 0.5, 0, 0, 0, 0, 1)
+        found = voxplex.Image.from_vtk(image)
+        numpy.testing.assert_allclose(found.spacing, (0.5, 4, 3))
+        numpy.testing.assert_array_equal(found.direction, ((0, -1, 0), (1, 0, 0), (0, 0, 1)))
+        self.assertEqual(found.origin, [4, 5, 6])
+
+    def test_which_array(self):
+        """The active one, else the only one, or that of a name; of points or of cells."""
+        def array(name, count, value):
+            result = numpy_to_vtk(numpy.full(count, value, dtype=numpy.uint8), deep=True)
+            result.SetName(name)
+            return result
+
+        def image(*arrays):
+            result = vtkImageData()
+            result.SetDimensions(4, 3, 3)
+            for name, of_cells, value in arrays:
+                data = result.GetCellData() if of_cells else result.GetPointData()
+                data.AddArray(array(name, 12 if of_cells else 36, value))
+            return result
+
+        def value(data, **arguments):
+            found = voxplex.Image.from_vtk(data, **arguments).voxels
+            self.assertIn(found.shape, ((3, 3, 4), (2, 2, 3)))
+            return (found.size == 12, int(found.max()))
+
+        for of_cells in (False, True):
+            alone = image(("labels", of_cells, 3))
+            alone.GetPointData().AddArray(array("vtkGhostType", 36, 0))
+            vectors = numpy_to_vtk(numpy.zeros((36, 3)), deep=True)
+            alone.GetPointData().SetVectors(vectors)
+            self.assertEqual(value(alone), (of_cells, 3))
+            self.assertFalse(alone.GetPointData().GetScalars() or alone.GetCellData().GetScalars())
+        several = image(("ct", False, 1), ("labels", False, 2), ("ct", True, 3), ("organs", True, 4))
+        for frames in (several, [several, several]):
+            words = ("several arrays that could be labels .'ct' of the points, 'labels' of the points, 'ct' of the cells, 'organs' of "
+                     "the cells.; choose one with scalars=")
+            with self.assertRaisesRegex(ValueError, words):
+                voxplex.mesh(frames)
+        self.assertEqual((value(several, scalars="labels"), value(several, scalars="organs")), ((False, 2), (True, 4)))
+        with self.assertRaisesRegex(ValueError, "'ct' of the points, 'ct' of the cells"):
+            voxplex.mesh(several, scalars="ct")
+        with self.assertRaisesRegex(ValueError, "no array 'none'"):
+            voxplex.quality(voxplex.mesh(brick(), 3), several, scalars="none")
+        several.GetCellData().SetActiveScalars("ct")
+        self.assertEqual((value(several), value(several, scalars="ct"), value(several, scalars="labels")), ((True, 3), (True, 3), (False, 2)))
+        several.GetPointData().SetActiveScalars("labels")
+        self.assertEqual(value(several), (False, 2))
+        self.assertEqual(voxplex.Image.from_vtk([several, several], scalars="organs").voxels.max(), 4)
+        with self.assertRaisesRegex(ValueError, "scalars: only for images of VTK"):
+            voxplex.mesh(brick(), scalars="labels")
+
     def test_hidden_voxels(self):
         labels = ball(radii=(8, 5))
         mask = numpy.zeros(labels.shape, dtype=bool)
@@ -276,9 +331,23 @@ class Meshes(unittest.TestCase):
             self.assertTrue(numpy.shares_memory(mesh.points, back.points))
             surfaces = voxplex.Interfaces.from_vtk(mesh.interfaces.to_vtk())
             self.assertTrue(same(mesh.interfaces, surfaces))
-        self.assertFalse(back.has_interfaces)
-        with self.assertRaisesRegex(ValueError, "interfaces of this mesh are not known"):
-            back.interfaces
+
+    def test_interfaces_that_are_not_known(self):
+        """They are made of the labels, with the numbers of the mesh's points, also if no element uses some of these."""
+        def facets(one):
+            return {(tuple(sorted(cell)), tuple(pair)) for cell, pair in
+                    zip(one.interfaces.point_ids[one.interfaces.cells].tolist(), one.interfaces.labels.tolist())}
+
+        for mesh in (self.mesh, self.series):
+            back = voxplex.Mesh.from_vtk(mesh.to_vtk())
+            self.assertEqual(facets(back), facets(mesh))
+            numpy.testing.assert_array_equal(back.points[back.interfaces.point_ids], back.interfaces.points)
+        part = voxplex.Mesh(self.mesh.points, self.mesh.cells[self.mesh.labels == 9],
+                            cell_data={"Label": self.mesh.labels[self.mesh.labels == 9]})
+        self.assertEqual({pair for _, pair in facets(part)}, {(9, 0)})
+        numpy.testing.assert_array_equal(part.points[part.interfaces.point_ids], part.interfaces.points)
+        with self.assertRaisesRegex(voxplex.MeshingError, "no array .Label."):
+            voxplex.Mesh(self.mesh.points, self.mesh.cells).interfaces
 
     def test_grid_outlives_the_mesh(self):
         grid = voxplex.mesh(brick(), 2.0, threads=1).to_vtk()

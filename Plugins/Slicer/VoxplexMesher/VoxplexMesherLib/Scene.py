@@ -4,7 +4,6 @@
 import os
 import re
 
-import numpy as np
 import slicer
 import vtk
 
@@ -82,14 +81,11 @@ def _exportSegments(segmentationNode, segments):
 
 
 def _imageOf(images, volumeNode):
-    """Slicer's scene is in RAS coordinates, files are in LPS."""
+    """Slicer's scene is in RAS coordinates."""
     matrix = vtk.vtkMatrix4x4()
     volumeNode.GetIJKToRASMatrix(matrix)
-    toLPS = np.array([[sign * matrix.GetElement(row, column) for column in range(4)]
-                      for row, sign in enumerate((-1.0, -1.0, 1.0))])
-    spacing = np.linalg.norm(toLPS[:, :3], axis=0)
-    return images.Image(slicer.util.arrayFromVolume(volumeNode), spacing=spacing, origin=toLPS[:, 3],
-                        direction=toLPS[:, :3] / spacing)
+    affine = [[matrix.GetElement(row, column) for column in range(4)] for row in range(4)]
+    return images.Image(slicer.util.arrayFromVolume(volumeNode), affine=affine)
 
 
 def loadMesh(modelNode, path):
