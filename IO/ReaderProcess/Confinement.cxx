@@ -135,6 +135,7 @@ void Confine(const ImageRequest& request)
   constexpr std::uint64_t anHour = 3600;
   Limit(RLIMIT_CPU, 60 + size / bytesInASecond, anHour);
   Limit(RLIMIT_CORE, 0, 0);
+  Limit(RLIMIT_FSIZE, RLIM_INFINITY, RLIM_INFINITY); // shared memory counts as a file, and is none
   ForbidOtherFiles(request);
 }
 

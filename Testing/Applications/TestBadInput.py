@@ -190,7 +190,7 @@ class Outputs(ProgramTestCase):
     def test_full_disk(self):
         """A limit on the size of files stands in for it. What was there before stays."""
         def limit():
-            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, resource.RLIM_INFINITY))
 
         for name, flag in (("m.vtu", "--output"), ("m.xdmf", "--output"), ("i.ply", "--plc")):
             with self.subTest(name):

@@ -293,7 +293,7 @@ class Slices(SpaceTimeTestCase):
     def test_all_or_none(self):
         """A limit on the size of files stands in for a full disk."""
         def limit():
-            resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (3000, resource.RLIM_INFINITY))
 
         (self.folder / "heart_1.vtu").write_text("old")
         self.refuse(1, "cannot write 'heart_0.vtu': ", "--slices", "heart_", preexec_fn=limit)

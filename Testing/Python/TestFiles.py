@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy
 import voxplex
 from phantoms import beating, brick
-from voxplex.images import image_of
+from voxplex.sources import image_of
 
 try:
     import meshfiles
