@@ -75,7 +75,11 @@ std::string Suggest(const std::string& name, const io::LabelTable& table)
     {
       break;
     }
-    text += (count == 1 ? "" : count == shown ? " or " : ", ") + match;
+    text += (count == 1 ? "" : count == near.size() ? " or " : ", ") + match;
+  }
+  if (near.size() > most)
+  {
+    text += " or one of " + std::to_string(near.size() - most) + " more";
   }
   return text.empty() ? "" : "; did you mean " + text + "?";
 }

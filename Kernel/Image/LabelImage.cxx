@@ -246,7 +246,9 @@ void CheckSelected(const std::vector<std::int64_t>& selected,
         occurring.begin(), occurring.begin() + std::min<std::ptrdiff_t>(20, std::ssize(occurring)));
       throw InputError("Label " + std::to_string(value) + " was " + was +
         ", but does not occur in the image; its labels are " + Format(shown) +
-        (occurring.size() > shown.size() ? ", ..." : "") + ". Correct " + purpose + ".");
+        (occurring.size() > shown.size() ? ", ... (" + std::to_string(occurring.size()) + " in all)"
+                                         : "") +
+        ". Correct " + purpose + ".");
     }
   }
 }

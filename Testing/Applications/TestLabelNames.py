@@ -159,6 +159,14 @@ class Refusal(NamesTestCase):
         self.refuse(r"--labels: no label of the image is called 'Left hipocampus'; did you mean "
                     r"'Left hippocampus' \(3\)\?", *table, "--labels", "Left hipocampus")
         self.refuse(r"--labels: .* 'left'; did you mean '.*' \((3|7)\) or '.*' \((3|7)\)\?", *table, "--labels", "left")
+        many = images.write_nrrd(self.folder / "many.nrrd", np.arange(12 * 64).reshape(12, 8, 8).astype(np.uint8) % 12 + 1)
+        (self.folder / "ribs.csv").write_text("".join("%d,rib %d\n" % (label, label) for label in range(1, 13)))
+        for arguments, pattern in ((("--label-table", "ribs.csv", "--labels", "rib"),
+                                    r"'rib 1' \(1\), 'rib 2' \(2\), .* 'rib 5' \(5\) or one of 7 more\?"),
+                                   (("--label-table", "ribs.csv", "--labels", "rab 1"), r"did you mean 'rib 1' .* or one of \d more\?")):
+            self.assert_refused(2, pattern, "--input", many, *arguments)
+        wide = images.write_nrrd(self.folder / "wide.nrrd", np.arange(8 * 8 * 8).reshape(8, 8, 8).astype(np.uint16) // 16 + 1)
+        self.assert_refused(1, r"its labels are 1, 2, 3, .*, 20, \.\.\. \(32 in all\)", "--input", wide, "--labels", "99")
         self.refuse("--label-size: no label of the image is called 'Femur'\n", *table, "--label-size", "Femur=2")
         self.refuse("--interface-size: no label of the image is called 'Femur'\n", *table, "--interface-size", "Femur,0=2")
 
