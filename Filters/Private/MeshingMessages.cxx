@@ -154,12 +154,18 @@ std::vector<std::string> WarningsOf(const MeshingStatistics& run,
       return describeLabel(label.Label) + " (" +
         std::to_string(std::lround(100.0 * label.Fraction)) + " %)";
     };
-    warnings.push_back("The mesh has less than half of the volume of these labels, which are "
-                       "thin for a {delta} of " +
-      NumberText(run.Delta) + ": " +
+    warnings.push_back("The mesh lacks a tenth or more of the volume of these labels, which are "
+                       "small or thin for a {delta} of " +
+      NumberText(run.Delta) + " (with what it has, the worst first): " +
       ListSome(std::span<const ShrunkLabel>(run.ShrunkLabels), describe) +
       (exactComponents ? ". A smaller {delta} keeps them."
                        : ". {exact-components} or a smaller {delta} keeps them."));
+  }
+  else if (run.VolumeShare <= ShrunkFractionOfAll)
+  {
+    warnings.push_back("The mesh has " + std::to_string(std::lround(100.0 * run.VolumeShare)) +
+      " % of the volume of all labels together, whose parts are small or thin for a {delta} of " +
+      NumberText(run.Delta) + ". A smaller {delta} keeps more of them.");
   }
   const auto warnOfLost = [&](const ComponentStatistics& components, const char* of)
   {

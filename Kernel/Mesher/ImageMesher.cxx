@@ -84,7 +84,10 @@ void ImageMesher<D>::Measure(const LabelImage<D>& image, const SimplexMesh<D>& m
   this->Stats.LostLabels = FindLostLabels(mesh, image);
   if constexpr (D == 3)
   {
-    this->Stats.ShrunkLabels = FindShrunkLabels(mesh, image, threads);
+    VolumeShares shares = FindShrunkLabels(
+      mesh, image, this->Stats.Isosurface ? ShrunkFractionOfIsosurface : ShrunkFraction, threads);
+    this->Stats.ShrunkLabels = std::move(shares.Shrunk);
+    this->Stats.VolumeShare = this->Stats.Isosurface ? 1.0 : shares.All;
   }
   if (this->Options.MeasureQuality)
   {

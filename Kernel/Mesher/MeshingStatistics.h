@@ -110,6 +110,7 @@ struct MeshingStatistics
   std::vector<ComponentReport> DroppedComponents; ///< by MeshingOptions::SmallestVolume
   std::vector<std::int64_t> LostLabels;           ///< FindLostLabels()
   std::vector<ShrunkLabel> ShrunkLabels;          ///< FindShrunkLabels(); 3D only
+  double VolumeShare = 1.0;                       ///< VolumeShares::All; 3D labels only
   bool HasQuality = false;                        ///< MeshingOptions::MeasureQuality
   MeshQuality Quality;
   RuleStatistics Rules;

@@ -45,8 +45,8 @@ template std::vector<std::int64_t> FindLostLabels<4>(const SimplexMesh<4>&, cons
 //------------------------------------------------------------------------------------------------
 // Volumes are summed in blocks of elements, and then over the blocks, so that the sums do not depend
 // on the threads.
-std::vector<ShrunkLabel> FindShrunkLabels(
-  const SimplexMesh<3>& mesh, const LabelImage<3>& image, unsigned threads)
+VolumeShares FindShrunkLabels(
+  const SimplexMesh<3>& mesh, const LabelImage<3>& image, double fraction, unsigned threads)
 {
   constexpr std::size_t BlockSize = 1u << 16;
   const std::span<const std::int64_t> values = image.Values();
@@ -74,7 +74,9 @@ std::vector<ShrunkLabel> FindShrunkLabels(
       }
     });
 
-  std::vector<ShrunkLabel> shrunk;
+  VolumeShares shares;
+  double volumeOfAll = 0.0;
+  double wholeOfAll = 0.0;
   for (std::size_t id = 1; id < values.size(); ++id)
   {
     double volume = 0.0;
@@ -84,12 +86,17 @@ std::vector<ShrunkLabel> FindShrunkLabels(
     }
     const std::int64_t voxels = image.Counts()[id];
     const double whole = static_cast<double>(voxels) * image.Grid().VoxelVolume();
-    if (voxels >= FewestVoxelsOfShrunk && volume > 0.0 && volume < ShrunkFraction * whole)
+    if (voxels >= FewestVoxelsOfShrunk && volume > 0.0 && volume <= fraction * whole)
     {
-      shrunk.push_back({ values[id], volume / whole });
+      shares.Shrunk.push_back({ values[id], volume / whole });
     }
+    volumeOfAll += volume;
+    wholeOfAll += whole;
   }
-  return shrunk;
+  std::stable_sort(shares.Shrunk.begin(), shares.Shrunk.end(),
+    [](const ShrunkLabel& a, const ShrunkLabel& b) { return a.Fraction < b.Fraction; });
+  shares.All = wholeOfAll > 0.0 ? volumeOfAll / wholeOfAll : 1.0;
+  return shares;
 }
 
 } // namespace voxplex

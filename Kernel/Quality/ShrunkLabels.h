@@ -22,13 +22,24 @@ struct ShrunkLabel
   double Fraction = 0.0; ///< of its volume in the image
 };
 
-/** A label is shrunk if the mesh has less than this part of its volume... */
-inline constexpr double ShrunkFraction = 0.5;
+/** What a mesh has of the volumes of labels. */
+struct VolumeShares
+{
+  std::vector<ShrunkLabel> Shrunk; ///< the worst first
+  double All = 1.0;                ///< of the volume of all labels together
+};
+
+/** A label is shrunk if the mesh has at most this part of its volume... */
+inline constexpr double ShrunkFraction = 0.9;
+/** ... of an isosurface less, as its volume is not that of voxels... */
+inline constexpr double ShrunkFractionOfIsosurface = 0.5;
 /**
  * ... and it has at least this number of voxels, as ComponentOptions::Smallest. Specks are only kept,
  * with few elements.
  */
 inline constexpr std::int64_t FewestVoxelsOfShrunk = 8;
+/** Labels of which none is shrunk, grains for example, have together lost much if they have at most this part. */
+inline constexpr double ShrunkFractionOfAll = 0.95;
 
 /**
  * The labels of the image without an element, in increasing order. Those without a voxel, which
@@ -38,16 +49,17 @@ template <int D>
 std::vector<std::int64_t> FindLostLabels(const SimplexMesh<D>& mesh, const LabelImage<D>& image);
 
 /**
- * The shrunk labels, in increasing order. Labels without an element are not among them.
+ * The shrunk labels, the worst first. Labels without an element are not among them.
  *
  * O(elements).
  *
  * @param mesh in the frame of the image
+ * @param fraction see ShrunkFraction
  * @param threads 0 means all cores; the result does not depend on it
  * @throws std::bad_alloc
  */
-std::vector<ShrunkLabel> FindShrunkLabels(
-  const SimplexMesh<3>& mesh, const LabelImage<3>& image, unsigned threads = 1);
+VolumeShares FindShrunkLabels(const SimplexMesh<3>& mesh, const LabelImage<3>& image,
+  double fraction = ShrunkFraction, unsigned threads = 1);
 
 extern template std::vector<std::int64_t> FindLostLabels<3>(
   const SimplexMesh<3>&, const LabelImage<3>&);

@@ -23,7 +23,7 @@ CASES = DATA / "cases"
 # and those of the sample spacing rule.
 MOST_WORK = 2000
 # At a coarse delta some labels are mostly lost, and the program says so.
-SHRUNK = "less than half of the volume of"
+SHRUNK = "a tenth or more of the volume of"
 
 
 class Atlases(ProgramTestCase):
@@ -46,7 +46,7 @@ class Atlases(ProgramTestCase):
 
     @unittest.skipUnless(KNEE.exists(), "the knee atlas is not beside the checkout")
     def test_every_tissue_of_the_knee(self):
-        report = self.statistics("--input", KNEE, "--delta", 2, "--threads", 1, "--output", "knee.vtu")
+        report = self.statistics("--input", KNEE, "--delta", 2, "--threads", 1, "--output", "knee.vtu", warning=SHRUNK)
         mesh = meshfiles.read_tetrahedra(self.folder / "knee.vtu")
         self.assertEqual(len(set(mesh.labels)), 49)
         self.assertGreater(mesh.volumes().min(), 0.0)
@@ -56,7 +56,8 @@ class Atlases(ProgramTestCase):
     @unittest.skipUnless(HEAD_NECK.exists(), "the head-neck atlas is not beside the checkout")
     def test_head_and_neck_end(self):
         report = self.statistics(
-            "--input", HEAD_NECK, "--delta", 2, "--threads", 1, "--no-optimise", "--output", "head.vtu")
+            "--input", HEAD_NECK, "--delta", 2, "--threads", 1, "--no-optimise", "--output", "head.vtu",
+            warning=SHRUNK)
         self.assertEqual(report["yielding_regions"], [])
         self.assertLess(report["largest_regional_work"], 250)
         self.assertEqual(report["lost_components"], [])
@@ -65,10 +66,10 @@ class Atlases(ProgramTestCase):
     # Vertices may leave interfaces by a part of delta, so that shapes are as good as in fine meshes.
     @unittest.skipUnless(TEMPLATES.exists(), "package mricron-data is not installed")
     def test_coarse_meshes_are_coarse(self):
-        for name, most, warning in (("natbrainlab", 60000, None), ("inia19-NeuroMaps", 150000, SHRUNK)):
+        for name, most in (("natbrainlab", 60000), ("inia19-NeuroMaps", 150000)):
             with self.subTest(name):
                 report = self.statistics("--input", TEMPLATES / (name + ".nii.gz"), "--delta", 6, "--threads", 1,
-                                         "--output", "coarse.vtu", warning=warning)
+                                         "--output", "coarse.vtu", warning=SHRUNK)
                 self.assertLess(report["elements"], most)
                 self.assertEqual((report["lost_components"], report["lost_labels"]), ([], []))
                 self.assertEqual(report["optimisation"]["poor_after"], 0)  # 4 and 10 with a quarter of a voxel
@@ -76,12 +77,12 @@ class Atlases(ProgramTestCase):
     # What is promised costs few elements. Slivers wedged between interfaces would be left over if refinement left them.
     @unittest.skipUnless(TEMPLATES.exists(), "package mricron-data is not installed")
     def test_promises_cost_few_elements(self):
-        for name in ("HarvardOxford-cort-maxprob-thr0-1mm", "jhu189"):
+        for name, warning in (("HarvardOxford-cort-maxprob-thr0-1mm", None), ("jhu189", SHRUNK)):
             with self.subTest(name):
                 image = ("--input", TEMPLATES / (name + ".nii.gz"), "--delta", 2, "--threads", 1, "--output", "mesh.vtu")
-                promised = self.statistics(*image)
+                promised = self.statistics(*image, warning=warning)
                 plain = self.statistics(*image, "--no-optimise", "--sliver-angle", 0, "--smallest-component", 0,
-                                        "--no-junctions", "--interface-rounds", 0, "--no-manifold")
+                                        "--no-junctions", "--interface-rounds", 0, "--no-manifold", warning=warning)
                 self.assertLess(promised["elements"], 1.1 * plain["elements"])
                 # One tetrahedron may stay as it was, since a component is there by it alone.
                 shapes = promised["optimisation"]
@@ -95,9 +96,9 @@ class Atlases(ProgramTestCase):
             done = self.call("--input", TEMPLATES / "natbrainlab.nii.gz", "--delta", 4, "--threads", 1, "--quality",
                              "--no-fit", "--stats", "statistics.json", *flags)
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertEqual(without_topology(done.stderr), "")
+            self.assertRegex(without_topology(done.stderr), "^(|[^\n]*" + SHRUNK + "[^\n]*\n)$")
             report = json.loads((self.folder / "statistics.json").read_text())
-            self.assertEqual(report["shrunk_labels"], [])
+            self.assertTrue(all(one["fraction"] > 0.7 for one in report["shrunk_labels"]), report["shrunk_labels"])
             self.assertEqual(report["parameters"]["exact_components"], bool(flags))
             self.assertEqual(report["lost_components"], [])
             errors.append(report["image"]["label_volume_error"])

@@ -232,7 +232,7 @@ class Output(NamesTestCase):
         array[2] = 9  # a sheet of one voxel
         path = images.write_nrrd(self.folder / "sheet.nrrd", array)
         self.mesh("--input", path, "--label-table", "names.txt", "--delta", 8, "--stats", "s.json", "--interface-rounds", 0,
-                  warning=r"less than half of the volume of these labels, which are thin for a --delta of 8: .*"
+                  warning=r"a tenth or more of the volume of these labels, which are small or thin for a --delta of 8 .*"
                           r"9 \(Speck\) \(\d+ %\).*\. --exact-components or a smaller --delta keeps them\.")
         shrunk = json.loads((self.folder / "s.json").read_text())["shrunk_labels"]
         self.assertIn((9, "Speck"), [(one["label"], one["name"]) for one in shrunk])

@@ -60,7 +60,7 @@ class Options(ProgramTestCase):
         self.assertRegex(done.stderr, r"warning: Tetrahedra of these connected components of the image are in several pieces that "
                                       r"no common faces connect: 64 voxels of label 1 at \(i, j, k\) = \(4, 4, 4\) in %d\. --exact-components"
                          % broken["fragments"])
-        self.assertRegex(done.stderr, r"less than half of the volume of these labels, .*: 1 \(")
+        self.assertRegex(done.stderr, r"a tenth or more of the volume of these labels, .*: 1 \(")
         done = self.call("--input", path, "--delta", 2, "--exact-components", "--quality", "--stats", "s.json")
         report = json.loads((self.folder / "s.json").read_text())
         self.assertEqual((report["broken_components"], report["labels"]["1"]["fragments"]), ([], 1))

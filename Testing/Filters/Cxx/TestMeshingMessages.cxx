@@ -44,7 +44,13 @@ int TestMeshingMessages(int, char*[])
   voxplex::MeshingStatistics shrunk;
   shrunk.ShrunkLabels = { { .Label = 7, .Fraction = 0.25 } };
   ExpectOne(shrunk, "7 (25 %). ExactComponents or a smaller Delta keeps them.");
+  shrunk.VolumeShare = 0.5; // said of the label already
   ExpectOne(shrunk, "7 (25 %). A smaller Delta keeps them.", true);
+  voxplex::MeshingStatistics grains;
+  grains.VolumeShare = 0.92;
+  ExpectOne(grains, "has 92 % of the volume of all labels together");
+  grains.VolumeShare = 0.97;
+  CHECK(voxplex::WarningsOf(grains, {}, "Local", false).empty(), "little is lost");
 
   voxplex::MeshingStatistics lost;
   lost.LostLabels = { 7, 8 };

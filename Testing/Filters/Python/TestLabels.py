@@ -104,6 +104,20 @@ class Warnings(FilterTestCase):
         self.assertEqual(len(warnings), 1)
         self.assertIn("lacks", warnings[0])
 
+    def test_small_parts(self):
+        """Balls that are small for Delta lose a part of their volume, and the worst is named first; a large one does not."""
+        k, j, i = numpy.mgrid[:40, :40, :40]
+        labels = numpy.where((i - 26) ** 2 + (j - 26) ** 2 + (k - 26) ** 2 < 11 ** 2, 1, 0)
+        for label, radius in ((2, 3.6), (3, 3.0), (4, 2.4)):
+            labels[(i - 7) ** 2 + (j - 10 * (label - 1)) ** 2 + (k - 7) ** 2 <= radius ** 2] = label
+        _, statistics, warnings = self.run_filter(labels, 3.0, keeps_parts=True)
+        shrunk = json.loads(statistics.ToJSON())["shrunk_labels"]
+        self.assertNotIn(1, [one["label"] for one in shrunk])
+        self.assertIn(3, [one["label"] for one in shrunk])
+        self.assertEqual(shrunk, sorted(shrunk, key=lambda one: one["fraction"]))
+        self.assertIn("the worst first): %d (%.0f %%)" % (shrunk[0]["label"], 100 * shrunk[0]["fraction"]), warnings[0])
+        self.assertEqual(len(warnings), 1)
+
     def test_shrunk(self):
         """A sheet that is thin for Delta loses volume, and is in pieces, if nothing keeps it."""
         k, j, i = numpy.mgrid[:32, :32, :32]
@@ -119,7 +133,7 @@ class Warnings(FilterTestCase):
         self.assertEqual(shrunk["label"], 9)
         self.assertAlmostEqual(shrunk["fraction"], fraction, 5)
         self.assertEqual(len(warnings), 2)
-        self.assertIn("less than half of the volume of these labels, which are thin for a Delta of 4: 9 (", warnings[0])
+        self.assertIn("a tenth or more of the volume of these labels, which are small or thin for a Delta of 4 (with what it has, the worst first): 9 (", warnings[0])
         self.assertIn("in several pieces that no common faces connect: ", warnings[1])
         mesher.SetInterfaceRounds(8)
         mesher.ManifoldOn()

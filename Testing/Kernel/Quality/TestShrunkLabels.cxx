@@ -43,22 +43,24 @@ void Add(SimplexMesh<3>& mesh, std::int64_t label, std::size_t count)
   }
 }
 
-TEST(ShrunkLabels, AreThoseWithLessThanHalfOfTheirVolume)
+TEST(ShrunkLabels, AreThoseThatLackATenthOfTheirVolume)
 {
-  const LabelImage<3> image = Layers({ 7, 2, 5, 40, 2 }); // volumes 100, 200, 100, 100
+  const LabelImage<3> image = Layers({ 7, 2, 5, 40, 2, 9, 9 }); // volumes 100, 200, 100, 100, 200
   SimplexMesh<3> mesh;
-  Add(mesh, 2, 9); // 0.45
+  Add(mesh, 2, 18); // 0.9
   Add(mesh, 40, 1);
-  Add(mesh, 7, 5);  // half of it: not shrunk
-  Add(mesh, 40, 2); // 0.3; 5 is lost
+  Add(mesh, 7, 10);
+  Add(mesh, 9, 19); // 0.95: not shrunk
+  Add(mesh, 40, 2); // 0.3, the worst; 5 is lost
   for (const unsigned threads : { 1u, 3u })
   {
-    const std::vector<ShrunkLabel> shrunk = FindShrunkLabels(mesh, image, threads);
-    ASSERT_EQ(shrunk.size(), 2u);
-    EXPECT_EQ(shrunk[0].Label, 2);
-    EXPECT_DOUBLE_EQ(shrunk[0].Fraction, 0.45);
-    EXPECT_EQ(shrunk[1].Label, 40);
-    EXPECT_DOUBLE_EQ(shrunk[1].Fraction, 0.3);
+    const VolumeShares shares = FindShrunkLabels(mesh, image, ShrunkFraction, threads);
+    ASSERT_EQ(shares.Shrunk.size(), 2u);
+    EXPECT_EQ(shares.Shrunk[0].Label, 40);
+    EXPECT_DOUBLE_EQ(shares.Shrunk[0].Fraction, 0.3);
+    EXPECT_EQ(shares.Shrunk[1].Label, 2);
+    EXPECT_DOUBLE_EQ(shares.Shrunk[1].Fraction, 0.9);
+    EXPECT_DOUBLE_EQ(shares.All, 500.0 / 700.0);
   }
 }
 
@@ -87,7 +89,7 @@ TEST(ShrunkLabels, SpecksAreNotAmongThem)
   SimplexMesh<3> mesh;
   Add(mesh, 1, 1);
   Add(mesh, 2, 1);
-  const std::vector<ShrunkLabel> shrunk = FindShrunkLabels(mesh, image);
+  const std::vector<ShrunkLabel> shrunk = FindShrunkLabels(mesh, image).Shrunk;
   ASSERT_EQ(shrunk.size(), 1u);
   EXPECT_EQ(shrunk[0].Label, 2);
 }
@@ -99,7 +101,7 @@ TEST(ShrunkLabels, ManyElementsInBlocks)
   Add(mesh, 1, 100000);
   Add(mesh, 3, 4);
   Add(mesh, 1, 100000);
-  const std::vector<ShrunkLabel> shrunk = FindShrunkLabels(mesh, image, 2);
+  const std::vector<ShrunkLabel> shrunk = FindShrunkLabels(mesh, image, ShrunkFraction, 2).Shrunk;
   ASSERT_EQ(shrunk.size(), 1u);
   EXPECT_EQ(shrunk[0].Label, 3);
   EXPECT_DOUBLE_EQ(shrunk[0].Fraction, 0.4);
