@@ -96,7 +96,7 @@ void Connect(vtkSimplexMeshQuality* filter, const Parameters& parameters, const 
 
 //----------------------------------------------------------------------------------------------------
 /** Frames in which a label has less than this part of its largest volume are no measure of it. */
-constexpr double LeastShare = 0.2;
+constexpr double LeastShare = 0.05;
 
 /** A figure of one frame, and when that is. */
 struct Worst

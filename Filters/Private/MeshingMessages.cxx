@@ -167,6 +167,15 @@ std::vector<std::string> WarningsOf(const MeshingStatistics& run,
       " % of the volume of all labels together, whose parts are small or thin for a {delta} of " +
       NumberText(run.Delta) + ". A smaller {delta} keeps more of them.");
   }
+  if (run.FramesOff.Number > 0)
+  {
+    warnings.push_back("Volumes are off by 3 % or more in " + std::to_string(run.FramesOff.Number) +
+      (run.FramesOff.Number == 1 ? " frame" : " frames") + ", most in that of t = " +
+      std::to_string(run.FramesOff.Frame) + " (from 0 on), where the mesh has " +
+      std::to_string(std::lround(100.0 * run.FramesOff.Share)) + " % of label " +
+      describeLabel(run.FramesOff.Label) +
+      ". A larger {time-scale} follows the motion better, a smaller {delta} the shape.");
+  }
   const auto warnOfLost = [&](const ComponentStatistics& components, const char* of)
   {
     if (!components.Lost.empty())

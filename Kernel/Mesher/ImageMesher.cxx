@@ -89,6 +89,10 @@ void ImageMesher<D>::Measure(const LabelImage<D>& image, const SimplexMesh<D>& m
     this->Stats.ShrunkLabels = std::move(shares.Shrunk);
     this->Stats.VolumeShare = this->Stats.Isosurface ? 1.0 : shares.All;
   }
+  else if (!this->Stats.Isosurface)
+  {
+    this->Stats.FramesOff = CompareFrames(mesh, image);
+  }
   if (this->Options.MeasureQuality)
   {
     const double ratio = D == 3 && this->Options.Optimisation.Run

@@ -14,6 +14,7 @@
 #include "Image/IsosurfaceImage.h"
 #include "Parallel/Policies.h"
 #include "Quality/MeshQuality.h"
+#include "Quality/FrameVolumes.h"
 #include "Quality/ShrunkLabels.h"
 #include "Refinement/RefinementStatistics.h"
 
@@ -111,6 +112,7 @@ struct MeshingStatistics
   std::vector<std::int64_t> LostLabels;           ///< FindLostLabels()
   std::vector<ShrunkLabel> ShrunkLabels;          ///< FindShrunkLabels(); 3D only
   double VolumeShare = 1.0;                       ///< VolumeShares::All; 3D labels only
+  struct FramesOff FramesOff;                     ///< CompareFrames(); 4D labels only
   bool HasQuality = false;                        ///< MeshingOptions::MeasureQuality
   MeshQuality Quality;
   RuleStatistics Rules;
