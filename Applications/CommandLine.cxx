@@ -5,19 +5,18 @@
 #include "EditDistance.h"
 #include "Errors.h"
 #include "OptionValues.h"
-#include "OutputFormats.h"
+#include "Options.h"
 #include "ParameterChecks.h"
 #include "SpaceTimeFiles.h"
 
 #include <voxplexVersion.h>
+#include <vtkSimplexMeshWriter.h>
 
 #include <boost/program_options.hpp>
 
 #include <algorithm>
-#include <array>
-#include <set>
-#include <sstream>
 #include <string_view>
+#include <vector>
 
 namespace po = boost::program_options;
 
@@ -27,45 +26,7 @@ namespace
 {
 
 /** Collects arguments that are neither a flag nor the value of one. */
-constexpr const char* Stray = "stray-arguments";
-
-constexpr const char* Examples = R"(Examples:
-  Mesh with triangles of about 1.5 mm on the interfaces:
-    voxplex --input knee.nrrd --delta 1.5 --output knee.vtu
-
-  How good the mesh is, and how far its interfaces are from those of the image:
-    voxplex --input knee.nrrd --delta 1.5 --output knee.vtu --hausdorff
-
-  A mesh that is there already: how good it is, and the same mesh for Gmsh:
-    voxplex --mesh knee.vtu --input knee.nrrd --hausdorff
-    voxplex --mesh knee.vtu --interfaces knee.vtp --output knee.msh
-
-  The interfaces between labels as a surface, and figures about the mesh:
-    voxplex --input knee.nrrd --delta 1.5 --output knee.vtu --plc knee.vtp --stats knee.json
-
-  About 500,000 tetrahedra, finer where the labels Tibia and Femur touch:
-    voxplex --input knee.nrrd --elements 500000 --interface-size Tibia,Femur=0.5 --output knee.vtu
-
-  An atlas whose labels have names, in a table beside it or in one that is given:
-    voxplex --input aal.nii.gz --labels Hippocampus_L,Hippocampus_R --delta 1 --output h.vtu
-    voxplex --input aparc+aseg.nii.gz --label-table FreeSurferColorLUT.txt --output brain.vtu
-
-  What is denser than 300 in a CT, as one tissue:
-    voxplex --input ct.nrrd --isovalue 300 --delta 1.5 --output bone.vtu
-
-  Two labels only, label 3 finer than the rest, for Gmsh:
-    voxplex --input knee.nrrd --labels 3,7 --delta 2 --size 4 --label-size 3=1 --output knee.msh
-
-  A beating heart as one mesh of space and time, and what it looks like at 30 times, for ParaView:
-    voxplex --input beating.nrrd --delta 5 --output heart.vtu --slices heart_ --slice-count 30
-
-  What is suspicious in a segmentation, and a repaired one, without a mesh:
-    voxplex --input knee.nrrd --check-image
-    voxplex --input knee.nrrd --fill-holes 50 --min-thickness Meniscus=2 --save-image knee2.nrrd
-
-  A DICOM series, in the RAS coordinates of 3D Slicer's scene, with a progress bar:
-    voxplex --input dicom-folder --space ras --progress --output ct.vtu
-)";
+constexpr const char* Words = "words";
 
 std::string SuggestOption(const po::options_description& options, std::string_view unknown)
 {
@@ -83,197 +44,6 @@ std::string SuggestOption(const po::options_description& options, std::string_vi
     }
   }
   return best.empty() ? "" : "; did you mean " + best + "?";
-}
-
-po::typed_value<std::string>* Text(const char* name)
-{
-  return po::value<std::string>()->value_name(name);
-}
-
-po::options_description DescribeFiles()
-{
-  po::options_description options("Files");
-  options.add_options() //
-    ("input", po::value<std::vector<std::string>>()->multitoken()->composing()->value_name("FILE"),
-      "the label image, of three or four dimensions: NRRD, NIfTI, MetaImage, "
-      "DICOM, TIFF, VTK, MGH, GIPL, MRC, or a folder that holds a DICOM series; 0 is background; "
-      "or a "
-      "grey-value image (--isovalue). Several files, or a folder of them, are masks, which become "
-      "labels 1, 2, ... with the names of their files") //
-    ("overlap", Text("smallest|order"),
-      "which of the masks that have a voxel gets it: the smallest (the default; of equals the "
-      "first), or the first. Also of segments of a .seg.nrrd file, and of DICOM segmentations") //
-    ("mask-threshold", Text("NUMBER"),
-      "above which probabilities, from 0 to 1, are inside: of masks, and of DICOM segmentations "
-      "(default 0.5)") //
-    ("resample-masks",
-      "resample masks whose grids differ by more than whole voxels to the smallest voxels, by "
-      "nearest neighbour") //
-    ("mesh", Text("FILE"),
-      "a mesh that is there already, in place of making one: a .vtu file of tetrahedra with the "
-      "cell array Label, or of pentatopes, which also have the point array Time. It is measured, "
-      "beside the image if --input gives one, and written in other formats") //
-    ("interfaces", Text("FILE"),
-      "the interfaces of --mesh (.vtp or .vtu; of pentatopes .vtu); without it they are made from "
-      "the labels. --plc writes them in another format, also without --mesh")        //
-    ("series", Text("UID"), "the DICOM series to read, if the folder holds several") //
-    ("spacing", Text("X,Y,Z"),
-      "the distances of voxels along the axes of the image, in place of what its file says: for "
-      "formats that do not know them (TIFF)") //
-    ("origin", Text("X,Y,Z"),
-      "the place of the first voxel, in place of what the file says, in the coordinates of --space") //
-    ("direction", Text("NUMBERS"),
-      "the directions of the axes of the image, in place of what the file says, in the coordinates "
-      "of --space: nine numbers, row by row, of a matrix whose columns they are, each of length 1, "
-      "such as 1,0,0,0,1,0,0,0,1") //
-    ("data-files-anywhere",
-      "lets the header of an image (.nhdr, .mhd, .hdr) name data files that are not in its folder "
-      "or below; only for headers that you trust") //
-    ("output", Text("FILE"),
-      ("the tetrahedra; the extension chooses the format: " +
-        ListExtensions(OutputOption::Output, 3) +
-        "; of a space-time image the pentatopes: " + ListExtensions(OutputOption::Output, 4))
-        .c_str()) //
-    ("plc", Text("FILE"),
-      ("the triangles between labels: " + ListExtensions(OutputOption::Interfaces, 3) +
-        "; of a space-time image the tetrahedra: " + ListExtensions(OutputOption::Interfaces, 4))
-        .c_str()) //
-    ("uncompressed",
-      "write .vtu and .vtp files without compression: they are larger, and faster to write and to "
-      "read")                                                            //
-    ("stats", Text("FILE"), "figures about the mesh and the run: .json") //
-    ("save-image", Text("FILE"),
-      "in place of a mesh: the label image as it was read, with its place, its times and the names "
-      "of its labels: .nrrd") //
-    ("quality",
-      "measure the mesh against the image and print it: histograms of angles, junctions, "
-      "non-manifold edges, volumes, what is lost; --stats has all of it, for each label, too. Of a "
-      "space-time mesh the cuts at the times of the frames are measured") //
-    ("hausdorff",
-      "like --quality, and the symmetric Hausdorff distance between the interfaces of the mesh and "
-      "of the image");
-  return options;
-}
-
-/** What is the program's own, beside the parameters of the group. */
-void AddOwn(po::options_description& options, ParameterGroup group)
-{
-  if (group == ParameterGroup::Labels)
-  {
-    options.add_options() //
-      ("label-table", Text("FILE"),
-        "text file with the names of the labels, and perhaps colours: that of FreeSurfer, ITK-SNAP "
-        "or 3D Slicer, or lines like '3 Tibia' or '3,Tibia,220,216,20' (default: the names that "
-        "the image has, or those in FILE.nii.txt beside FILE.nii.gz)") //
-      ("space", Text("lps|ras"), "coordinates of the mesh (default lps, those of DICOM and ITK)");
-  }
-  if (group == ParameterGroup::SpaceTime)
-  {
-    options.add_options() //
-      ("time-planes", Text("TIME,...|frames"),
-        "times of planes that the mesh conforms to, or frames for the time of each frame: no "
-        "element has points "
-        "before and after a plane") //
-      ("slabs", Text("PREFIX"),
-        "write each slab between two time planes alone: PREFIX0.vtu, PREFIX1.vtu, ..., or in the "
-        "format of --output") //
-      ("slices", Text("PREFIX"),
-        "write the mesh as it is at several times: PREFIX0.vtu, PREFIX1.vtu, ... and a .pvd file "
-        "that ParaView plays") //
-      ("slice-count", Text("NUMBER"),
-        "number of slices, equally spaced from the first to the last time, both included (default: "
-        "one for each frame of the image)");
-  }
-  if (group == ParameterGroup::Running)
-  {
-    options.add_options() //
-      ("progress",
-        "show a progress bar; if standard error is no terminal, print a line for each new percent, "
-        "such as '37 % Meshing'") //
-      ("messages", Text("shell|python"),
-        "for programs that start this one: the names that errors and warnings have for options "
-        "(default shell)")        //
-      ("help", "print this text") //
-      ("version", "print the version");
-  }
-}
-
-/** Whether the option may come again. */
-bool IsRepeatable(ParameterKind kind)
-{
-  return kind == ParameterKind::Labels || kind == ParameterKind::LabelSizes ||
-    kind == ParameterKind::InterfaceSizes;
-}
-
-/** What --help has for the value. */
-std::string ValueName(const MeshingParameter& parameter)
-{
-  std::string name = parameter.Unit;
-  for (const std::string& word : name.empty() ? parameter.Words : std::vector<std::string>())
-  {
-    name += (name.empty() ? "" : "|") + word;
-  }
-  return name;
-}
-
-void Add(po::options_description& options, const MeshingParameter& parameter)
-{
-  const std::string name = NameIn(UserInterface::CommandLine, parameter);
-  const std::string help = Describe(UserInterface::CommandLine, parameter);
-  const std::string value = ValueName(parameter);
-  if (parameter.Kind == ParameterKind::Flag)
-  {
-    options.add_options()(name.c_str(), help.c_str());
-  }
-  else if (IsRepeatable(parameter.Kind))
-  {
-    options.add_options()(name.c_str(),
-      po::value<std::vector<std::string>>()->composing()->value_name(value), help.c_str());
-  }
-  else
-  {
-    options.add_options()(name.c_str(), Text(value.c_str()), help.c_str());
-  }
-}
-
-po::options_description DeclareOptions()
-{
-  po::options_description all;
-  all.add(DescribeFiles());
-  const auto& parameters = MeshingParameters();
-  for (auto p = parameters.begin(); p != parameters.end();)
-  {
-    const ParameterGroup group = p->Group;
-    po::options_description options(TitleOf(group));
-    for (; p != parameters.end() && p->Group == group; ++p)
-    {
-      if (!NameIn(UserInterface::CommandLine, *p).empty())
-      {
-        Add(options, *p);
-      }
-    }
-    AddOwn(options, group);
-    all.add(options);
-  }
-  return all;
-}
-
-std::string HelpText(const po::options_description& options)
-{
-  std::ostringstream text;
-  text
-    << "Usage: voxplex --input FILE [--delta LENGTH] [--output FILE] [--plc FILE] [options]\n\n"
-       "Turns a segmented 3D image into a conforming mesh of tetrahedra for finite elements, and\n"
-       "one of space and time (4D) into a mesh of pentatopes. With --isovalue, it meshes the\n"
-       "region that an isosurface of a grey-value image bounds.\n"
-       "Lengths are in the unit of the image, usually millimetres.\n"
-    << options << '\n'
-    << Examples
-    << "\n"
-       "Exit status: 0 done; 1 the image cannot be meshed or a file not be read or written;\n"
-       "2 wrong command line; 130 interrupted with Ctrl-C. Output files appear whole or not at "
-       "all.\n";
-  return text.str();
 }
 
 /**
@@ -299,12 +69,12 @@ void RequireValues(int argc, const char* const* argv, const po::options_descript
   }
 }
 
-po::variables_map ParseOptions(
-  int argc, const char* const* argv, const po::options_description& all)
+po::variables_map ParseOptions(int argc, const char* const* argv, Verb verb)
 {
+  const po::options_description all = OptionsOf(verb);
   namespace style = po::command_line_style;
   po::options_description recognised;
-  recognised.add(all).add_options()(Stray, po::value<std::vector<std::string>>());
+  recognised.add(all).add_options()(Words, po::value<std::vector<std::string>>());
   RequireValues(argc, argv, all);
   po::variables_map values;
   try
@@ -313,7 +83,7 @@ po::variables_map ParseOptions(
     const auto parsed =
       po::command_line_parser(argc, argv)
         .options(recognised)
-        .positional(po::positional_options_description().add(Stray, -1))
+        .positional(po::positional_options_description().add(Words, -1))
         .style(style::allow_long | style::long_allow_adjacent | style::long_allow_next)
         .run();
     po::store(parsed, values);
@@ -321,8 +91,11 @@ po::variables_map ParseOptions(
   }
   catch (const po::unknown_option& error)
   {
-    throw UsageError("unknown option " + Quoted(error.get_option_name()) +
-      SuggestOption(all, error.get_option_name()));
+    const std::string commands = CommandsWith(error.get_option_name().substr(2));
+    throw UsageError(commands.empty() ? "unknown option " + Quoted(error.get_option_name()) +
+          SuggestOption(all, error.get_option_name())
+                                      : error.get_option_name() + " is an option of " + commands +
+          ", not of '" + CommandOf(verb) + "'");
   }
   catch (const po::multiple_occurrences& error)
   {
@@ -339,11 +112,6 @@ po::variables_map ParseOptions(
   catch (const po::error& error)
   {
     throw UsageError(error.what());
-  }
-  if (values.count(Stray))
-  {
-    throw UsageError(Quoted(values[Stray].as<std::vector<std::string>>().front()) +
-      " is not understood without a flag; give the image with --input");
   }
   return values;
 }
@@ -457,70 +225,60 @@ void TakeLists(const po::variables_map& values, Parameters& p)
   }
 }
 
-/** What has no effect on an image that is only saved or checked. */
+/** What says something of an image has no effect without one. */
 void CheckOptionsOfImage(const po::variables_map& values)
 {
-  static const std::set<std::string_view> ofImage{ "frame-times", "threads" };
-  for (const MeshingParameter& parameter : MeshingParameters())
+  for (const auto& [option, value] : values)
   {
-    const std::string option = NameIn(UserInterface::CommandLine, parameter);
-    if (values.count(option) && !ofImage.count(parameter.Name) && !parameter.IsOfRepair())
+    if (NeedsImage(option))
     {
       throw UsageError(
-        "--" + option + ": only for making a mesh, and none is made; name one with --output");
+        "--" + option + ": only with an image beside the mesh; give it with --input");
     }
   }
 }
 
-/** What has no effect on a mesh that is there, or none without the image. */
-void CheckOptionsOfMesh(const po::variables_map& values)
+/** Words without a flag: what is read first, what is written last. */
+void TakeWords(std::vector<std::string> words, Parameters& p)
 {
-  static const std::set<std::string_view> measuring{ "labels", "smoothing", "facet-angle",
-    "smallest-component", "radius-edge", "time-scale", "frame-times", "threads" };
-  const auto refuse = [&values](const std::string& option, const std::string& why)
+  const auto takeLast = [&words](std::string& target)
   {
-    if (values.count(option))
-    {
-      throw UsageError("--" + option + why);
-    }
+    target = words.back();
+    words.pop_back();
   };
-  constexpr const char* making =
-    ": only for making a mesh, and --mesh gives one that is there; leave one of the two out";
-  refuse("time-planes", making);
-  for (const MeshingParameter& parameter : MeshingParameters())
+  const auto takeFirst = [&words](std::string& target)
   {
-    if (!measuring.count(parameter.Name) && !parameter.IsOfRepair())
-    {
-      refuse(NameIn(UserInterface::CommandLine, parameter), making);
-    }
-  }
-  for (const char* const option :
-    { "series", "overlap", "mask-threshold", "resample-masks", "spacing", "origin", "direction",
-      "space", "labels", "label-table", "data-files-anywhere", "smoothing", "smallest-component",
-      "hausdorff", "fill-holes", "remove-spikes", "min-thickness", "shell", "check-image" })
+    target = words.front();
+    words.erase(words.begin());
+  };
+  const bool readsMesh = p.Action == Verb::Measure || p.Action == Verb::Convert;
+  if (readsMesh && p.Mesh.empty() && !words.empty())
   {
-    if (!values.count("input"))
-    {
-      refuse(option, ": only with an image beside the mesh; give it with --input");
-    }
+    takeFirst(p.Mesh);
   }
+  const bool isFollowing = words.size() + p.Inputs.size() > (readsMesh ? 0 : 1) && !words.empty();
+  const bool isOutput = p.Action == Verb::Mesh ? isFollowing &&
+      vtkSimplexMeshWriter::HasFormat(words.back(), vtkSimplexMeshWriter::CONTENT_MESH, 0)
+                                               : isFollowing && p.Action != Verb::Measure;
+  if (isOutput && p.Output.empty())
+  {
+    takeLast(p.Output);
+  }
+  const std::size_t most = p.Action == Verb::Image ? 1
+    : p.Action == Verb::Convert                    ? 0
+                                                   : words.size();
+  if (words.size() > most)
+  {
+    throw UsageError(Quoted(words.back()) +
+      " is one name too many; give masks with --input, and other files with their flags");
+  }
+  p.Inputs.insert(p.Inputs.end(), words.begin(), words.end());
 }
 
-Parameters ToParameters(const po::variables_map& values)
+Parameters ToParameters(Verb verb, const po::variables_map& values)
 {
   Parameters p;
-  if (values.count("mesh") || (values.count("interfaces") && !values.count("input")))
-  {
-    CheckOptionsOfMesh(values);
-  }
-  const auto isGiven = [&values](const char* option) { return values.count(option) > 0; };
-  constexpr std::array ofMeshes{ "mesh", "output", "plc", "stats", "slices", "slabs", "quality",
-    "hausdorff" };
-  if ((isGiven("save-image") || isGiven("check-image")) &&
-    std::none_of(ofMeshes.begin(), ofMeshes.end(), isGiven))
-  {
-    CheckOptionsOfImage(values);
-  }
+  p.Action = verb;
   p.Inputs = AllGiven(values, "input");
   std::for_each(
     p.Inputs.begin(), p.Inputs.end(), [](const std::string& path) { ParseName("input", path); });
@@ -529,7 +287,11 @@ Parameters ToParameters(const po::variables_map& values)
   Take(values, "output", ParseName, p.Output);
   Take(values, "plc", ParseName, p.Interfaces);
   Take(values, "stats", ParseName, p.Statistics);
-  Take(values, "save-image", ParseName, p.SavedImage);
+  TakeWords(AllGiven(values, Words), p);
+  if (p.Inputs.empty())
+  {
+    CheckOptionsOfImage(values);
+  }
   Take(values, "size-image", ParseName, p.SizeImage);
   TakeReading(values, p.Reading);
   TakeValues(values, p.Values);
@@ -561,7 +323,11 @@ Parameters ToParameters(const po::variables_map& values)
   p.Progress = values.count("progress") > 0;
   p.Compress = values.count("uncompressed") == 0;
   p.Hausdorff = values.count("hausdorff") > 0;
-  p.Quality = p.Hausdorff || values.count("quality") > 0;
+  p.Quality = p.Hausdorff || verb == Verb::Measure || values.count("quality") > 0;
+  if (verb == Verb::Image && p.Output.empty())
+  {
+    p.Values["check-image"] = 1.0;
+  }
   return p;
 }
 
@@ -584,22 +350,26 @@ UserInterface WordsOf(int argc, const char* const* argv)
 
 CommandLine ParseCommandLine(int argc, const char* const* argv)
 {
-  const po::options_description options = DeclareOptions();
-  if (std::any_of(argv + 1, argv + argc,
-        [](std::string_view argument) { return argument == "--help" || argument == "-h"; }))
+  const std::optional<Verb> given = argc > 1 ? FindVerb(argv[1]) : std::nullopt;
+  const Verb verb = given.value_or(Verb::Mesh);
+  const auto help = std::find_if(argv + 1, argv + argc,
+    [](std::string_view argument) { return argument == "--help" || argument == "-h"; });
+  if (help != argv + argc)
   {
-    return { std::nullopt, HelpText(options) };
+    const bool isLong = given || (help + 1 != argv + argc && std::string_view(help[1]) == "all");
+    return { std::nullopt, isLong ? Help(verb) : ShortHelp() };
   }
   if (argc <= 1)
   {
-    throw UsageError("--input is missing: which image shall be meshed?");
+    throw UsageError("which image shall be meshed?");
   }
-  const po::variables_map values = ParseOptions(argc, argv, options);
+  const int skipped = given ? 1 : 0; // the verb, in whose place the program's name is
+  const po::variables_map values = ParseOptions(argc - skipped, argv + skipped, verb);
   if (values.count("version"))
   {
     return { std::nullopt, "voxplex " VOXPLEX_VERSION "\n" };
   }
-  CommandLine commandLine{ ToParameters(values), "" };
+  CommandLine commandLine{ ToParameters(verb, values), "" };
   CheckTogether(*commandLine.Run);
   return commandLine;
 }

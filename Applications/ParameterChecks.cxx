@@ -30,7 +30,7 @@ std::string OptionOf(const MeshingParameter& parameter)
 
 void CheckForced(const Parameters& p)
 {
-  if (!p.Mesh.empty()) // of a mesh that is there, bounds only count violations
+  if (p.Action == Verb::Measure) // bounds only count violations
   {
     return;
   }
@@ -103,32 +103,18 @@ void CheckDependent(const Parameters& p)
     "out");
 }
 
-/** A mesh that is there. */
-void CheckMesh(const Parameters& p)
+/** Something is read, and something is written or said. */
+void CheckFiles(const Parameters& p)
 {
-  if (p.IsAboutInterfaces())
-  {
-    return;
-  }
-  if (p.Mesh.empty())
-  {
-    RefuseIf(!p.MeshInterfaces.empty(), "--interfaces",
-      ": these are those of a mesh that is there; give it with --mesh");
-    RefuseIf(p.Inputs.empty(), "--input is missing: which image shall be meshed?");
-  }
-}
-
-/** A copy of the image. */
-void CheckSavedImage(const Parameters& p)
-{
-  if (p.SavedImage.empty())
-  {
-    return;
-  }
-  RefuseIf(!p.SavedImage.ends_with(".nrrd"), "--save-image", ": images are saved as .nrrd");
-  const bool isMore = p.Quality || !(p.Output + p.Interfaces + p.Slices + p.Slabs + p.Mesh).empty();
-  RefuseIf(isMore, "--save-image",
-    ": no mesh is made or read beside it; leave it or the options about meshes out");
+  const bool readsMesh = p.Action == Verb::Measure || p.Action == Verb::Convert;
+  RefuseIf(readsMesh && p.Mesh.empty() && !p.IsAboutInterfaces(),
+    "which mesh? Name it first, or with --mesh");
+  RefuseIf(!readsMesh && p.Inputs.empty(), "which image? Name it first, or with --input");
+  RefuseIf(p.Action == Verb::Image && !p.Output.empty() && !p.Output.ends_with(".nrrd"), "--output",
+    ": images are saved as .nrrd");
+  RefuseIf(p.Action == Verb::Convert && p.WritesNothing(),
+    "no mesh would be written: name it last, or with --output (" +
+      ListExtensions(OutputOption::Output, 3) + ")");
 }
 
 } // namespace
@@ -137,13 +123,15 @@ void CheckTogether(const Parameters& p)
 {
   CheckForced(p);
   CheckSpaceTime(p);
-  CheckMesh(p);
-  CheckSavedImage(p);
   CheckIsosurface(p);
   CheckDependent(p);
-  RequireFormat(OutputOption::Output, p.Output);
+  if (p.Action != Verb::Image)
+  {
+    RequireFormat(OutputOption::Output, p.Output);
+  }
   RequireFormat(OutputOption::Interfaces, p.Interfaces);
   RequireFormat(OutputOption::Statistics, p.Statistics);
+  CheckFiles(p);
   if (!HasNames(p))
   {
     LabelSelection selection = SelectLabels(p, io::LabelTable());

@@ -50,17 +50,26 @@ struct ReadingOptions
   io::Space Space = io::Space::LPS; ///< of the output
 };
 
+/** What the program does, by its first word. */
+enum class Verb
+{
+  Mesh,
+  Measure,
+  Convert,
+  Image
+};
+
 /** An empty string or optional means that the option was not given. Lengths are physical. */
 struct Parameters
 {
+  Verb Action = Verb::Mesh;
   std::vector<std::string> Inputs;
   ReadingOptions Reading;     ///< of the input
   std::string Mesh;           ///< that is there already
   std::string MeshInterfaces; ///< those of Mesh
-  std::string Output;
+  std::string Output;         ///< a mesh, or an image
   std::string Interfaces;
   std::string Statistics;
-  std::string SavedImage; ///< where a copy of the image goes, in place of a mesh
   std::string SizeImage;
   std::string Slices; ///< the beginning of the names of slices
   std::optional<int> SliceCount;
@@ -82,12 +91,18 @@ struct Parameters
   bool Quality = false;
   bool Hausdorff = false; ///< implies Quality
 
+  /** Whether no file of a mesh or about it is asked for. */
+  bool WritesNothing() const
+  {
+    return (this->Output + this->Interfaces + this->Statistics + this->Slices + this->Slabs)
+      .empty();
+  }
+
   /** Whether interfaces are written in another format, without their mesh. */
   bool IsAboutInterfaces() const
   {
-    const bool isMore = this->Quality || !this->Inputs.empty() ||
-      !(this->Mesh + this->Output + this->Statistics + this->Slices + this->Slabs).empty();
-    return !isMore && !this->MeshInterfaces.empty() && !this->Interfaces.empty();
+    return this->Action == Verb::Convert && this->Mesh.empty() && !this->MeshInterfaces.empty() &&
+      (this->Output + this->Slices + this->Slabs).empty();
   }
 
   /** What messages call the image; empty if there is none. */

@@ -447,27 +447,19 @@ io::LabelTable NameLabels(const Parameters& p, MeshingInput& input)
   return names;
 }
 
-/** Whether the image is wanted, or what is suspicious about it, and no mesh. */
-bool IsAboutImage(const Parameters& p)
-{
-  const bool isAboutMesh =
-    p.Quality || !(p.Output + p.Interfaces + p.Statistics + p.Slices + p.Slabs + p.Mesh).empty();
-  return !p.SavedImage.empty() || (p.Has("check-image") && !isAboutMesh);
-}
-
 /** Writes the image that was read, perhaps repaired, and says what was repaired and is suspicious. */
 void SaveImage(const Parameters& p)
 {
   io::WholeFiles files;
-  AnnounceFile(files, p.SavedImage);
+  AnnounceFile(files, p.Output);
   AnnounceFile(files, p.Statistics);
   ProtectInputs(files, p, {});
   MeshingInput input = Read(p);
   ProtectInputs(files, p, input);
   RepairImage(p, input);
-  if (!p.SavedImage.empty())
+  if (!p.Output.empty())
   {
-    WriteImage(input.Labels, input.Source(), files.TemporaryPath(p.SavedImage));
+    WriteImage(input.Labels, input.Source(), files.TemporaryPath(p.Output));
   }
   const RepairReport report = input.Repair ? ReportRepair(p, input) : RepairReport();
   if (!p.Statistics.empty())
@@ -527,7 +519,7 @@ Filter MakeMesh(const Parameters& p, const MeshingInput& input, MeshWithInterfac
 nlohmann::ordered_json MeasureMesh(
   const Parameters& p, const MeshingInput& input, const MeshWithInterfaces& mesh)
 {
-  if (!p.Quality && (p.Mesh.empty() || p.Statistics.empty()))
+  if (!p.Quality)
   {
     return nullptr;
   }
@@ -578,6 +570,10 @@ void Run(const Parameters& p)
 {
   io::WholeFiles files;
   Announce(files, p);
+  if (p.WritesNothing() && !p.Quality)
+  {
+    Warn({ "no mesh will be written: name one last, or with --output" });
+  }
 
   InputOutputTimes times;
   const Stopwatch reading;
@@ -635,7 +631,9 @@ int Main(int argc, const char* const* argv)
     if (commandLine.Run)
     {
       const Parameters& p = *commandLine.Run;
-      IsAboutImage(p) ? SaveImage(p) : p.IsAboutInterfaces() ? ConvertInterfaces(p) : Run(p);
+      p.Action == Verb::Image   ? SaveImage(p)
+        : p.IsAboutInterfaces() ? ConvertInterfaces(p)
+                                : Run(p);
     }
     else
     {

@@ -17,13 +17,13 @@ install(
   DESTINATION "${_voxplex_doc}"
   COMPONENT   documentation)
 
-# The manual page is what `voxplex --help` prints; commands in it keep their lines.
+# The manual page is what `voxplex --help all` prints; commands in it keep their lines.
 find_program(VOXPLEX_HELP2MAN help2man)
 mark_as_advanced(VOXPLEX_HELP2MAN)
 if (TARGET voxplex AND VOXPLEX_HELP2MAN)
   set(_voxplex_page "${CMAKE_CURRENT_BINARY_DIR}/voxplex.1")
   add_custom_command(OUTPUT "${_voxplex_page}.gz"
-    COMMAND "${VOXPLEX_HELP2MAN}" --no-info --name "label images to conforming simplex meshes"
+    COMMAND "${VOXPLEX_HELP2MAN}" --no-info --help-option "--help all" --name "label images to conforming simplex meshes"
       --output "${_voxplex_page}" "$<TARGET_FILE:voxplex>"
     COMMAND sed -i "s/^voxplex .*/.EX\\n&\\n.EE/" "${_voxplex_page}"
     COMMAND gzip -9 -n -f "${_voxplex_page}"

@@ -182,8 +182,8 @@ class Image(Described):
         """
         with temporary_folder() as folder:
             try:
-                program.run([*self._options(folder), "--save-image=" + os.fsdecode(path)],
-                            words=[("save_image: ", "path: "), *in_words(folder)])
+                program.run(["image", *self._options(folder), "--output=" + os.fsdecode(path)],
+                            words=[("output: ", "path: "), *in_words(folder)])
             except MeshingError as error:
                 raise FileError(str(error)) from None
 
@@ -301,7 +301,7 @@ def _segments(image: Image) -> List[str]:
 
 
 def read_nrrd(path: str) -> Image:
-    """Reads what the program writes with --save-image."""
+    """Reads what `voxplex image` writes."""
     with open(path, "rb") as file:
         lines = iter(lambda: file.readline().decode(errors="replace").rstrip("\n"), "")
         pairs = dict(re.split(":=|: ", line, maxsplit=1) for line in lines if not line.startswith("NRRD"))

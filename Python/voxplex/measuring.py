@@ -103,8 +103,9 @@ def quality(mesh: Union[Mesh, Path, Any], image: Optional[Any] = None, *,
         raise ValueError(f"the mesh is in {space} coordinates, the image in {source.space}")
     with temporary_folder() as folder:
         report = os.path.join(folder, "quality.json")
-        arguments = [*mesh_options(mesh, folder), "--stats=" + report,
-                     "--hausdorff" if hausdorff and source is not None else "--quality", f"--threads={int(threads)}"]
+        arguments = ["measure", *mesh_options(mesh, folder), "--stats=" + report, f"--threads={int(threads)}"]
+        if hausdorff and source is not None:
+            arguments.append("--hausdorff")
         for option, value in (("smoothing", smoothing), ("radius-edge", radius_edge), ("facet-angle", facet_angle),
                               ("smallest-component", smallest_component), ("time-scale", time_scale)):
             if value is not None:

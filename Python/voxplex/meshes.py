@@ -222,7 +222,7 @@ class Mesh(_Simplices):
         if self._interfaces is None:
             with temporary_folder() as folder:
                 path = os.path.join(folder, "interfaces.vtu")
-                program.run([*self._options(folder), "--uncompressed", "--plc=" + path], words=in_words(folder))
+                program.run(["convert", *self._options(folder), "--uncompressed", "--plc=" + path], words=in_words(folder))
                 made = Interfaces._of(xmlfiles.read(path))
             made.point_data["PointIds"] = numpy.unique(self.cells)[made.point_ids]  # the program leaves out points without elements
             made.names, made.colors = self.names, self.colors
@@ -285,7 +285,7 @@ class Mesh(_Simplices):
         if not first <= time <= last:
             raise ValueError(f"time is {number_text(time)}; the mesh is there from {number_text(first)} to {number_text(last)}")
         with temporary_folder() as folder:
-            program.run([*self._options(folder), *number_list("frame-times", [time]), "--uncompressed",
+            program.run(["convert", *self._options(folder), *number_list("frame-times", [time]), "--uncompressed",
                          "--slices=" + os.path.join(folder, "slice")], words=in_words(folder))
             return Mesh._of(xmlfiles.read(os.path.join(folder, "slice0.vtu")))
 
@@ -369,7 +369,7 @@ def _run(arguments: List[str], folder: str, plc: str) -> None:
     """Writes files. plc: what the argument is called that names the file of interfaces."""
     ours = [("plc: ", plc + ": "), ("with plc", "with " + plc), ("output: ", "path: "), ("with output", "with path")]
     try:
-        program.run(arguments, words=ours + in_words(folder))
+        program.run(["convert", *arguments], words=ours + in_words(folder))
     except MeshingError as error:
         raise FileError(str(error)) from None
 

@@ -171,7 +171,7 @@ def _reading_options(reading: Mapping[str, Any]) -> List[str]:
 def _read(paths: Union[Path, Sequence[Path]], reading: Mapping[str, Any]) -> Image:
     with temporary_folder() as folder:
         image = os.path.join(folder, "image.nrrd")
-        program.run([*input_options(paths), *_reading_options(reading), "--save-image=" + image])
+        program.run(["image", *input_options(paths), *_reading_options(reading), "--output=" + image])
         return read_nrrd(image)
 
 
@@ -228,7 +228,7 @@ def _join_masks(masks: Mapping[str, Any], reading: Mapping[str, Any], scalars: O
             file.writelines('%d,"%s"\n' % (value, name.replace('"', '""')) for value, name in enumerate(masks, 1))
         rest = {name: value for name, value in reading.items() if name not in _PLACE}
         options += ["--label-table=" + table, *_reading_options({**rest, "space": space})]
-        program.run([*options, "--save-image=" + result], words=words)
+        program.run(["image", *options, "--output=" + result], words=words)
         joint = read_nrrd(result)
     if spaces == {None} and "space" not in reading:
         joint.space = None

@@ -189,7 +189,7 @@ def _mask(image: vtkImageData, voxels: NDArray[Any]) -> Optional[NDArray[numpy.b
         writer.SetFileName(os.path.join(folder, "image.vti"))
         writer.SetInputData(shown)
         writer.Write()
-        program.run(["--input=" + writer.GetFileName(), "--save-image=" + read])
+        program.run(["image", "--input=" + writer.GetFileName(), "--output=" + read])
         return numpy.fromfile(read, numpy.uint8)[-ones.GetNumberOfValues():].reshape(voxels.shape[:3]) == 0
 
 

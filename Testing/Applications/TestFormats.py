@@ -131,10 +131,10 @@ class Formats(ProgramTestCase):
                 self.assertEqual(mesh.label_names, {3: "label_3", 7: "label_7"})
                 self.assertEqual(mesh.names, PAIR_NAMES)
 
-    def test_no_output_is_fine(self):
-        """As in the thesis: without names, nothing is written but the summary."""
+    def test_no_output(self):
+        """As in the thesis nothing is written then but the summary. That is said at once."""
         before = self.contents()
-        self.write()
+        self.mesh("--input", self.input, "--delta", 2, warning="no mesh will be written: name one last, or with --output")
         self.assertEqual(self.contents(), before)
 
     def test_existing_file_is_replaced(self):

@@ -99,7 +99,7 @@ class GivenPlace(BallTestCase):
     def test_spacing_that_the_file_lacks(self):
         lines = {"space": None, "space directions": None, "space origin": None}
         path = images.write_nrrd(self.folder / "j.nrrd", self.array, header_lines=lines)
-        self.mesh("--input", path, "--delta", 2, warning="j.nrrd: .*no spacing of the voxels.* set it with --spacing")
+        self.mesh("--input", path, "--delta", 2, "--output", "j.vtu", warning="j.nrrd: .*no spacing of the voxels.* set it with --spacing")
         self.check_ball(self.mesh_of(path, *self.given("--spacing")), self.array, images.Geometry(spacing=self.PLACE.spacing))
 
     def test_size_image_has_its_own_place(self):

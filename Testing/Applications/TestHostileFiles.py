@@ -271,7 +271,7 @@ class Files(HostileTestCase):
         self.folder.chmod(0o755)
         # Root may read everything.
         options = {"user": 65534} if os.geteuid() == 0 else {}
-        done = self.call("--input", "i.nrrd", **options)
+        done = self.call("image", "i.nrrd", **options)
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr, "^voxplex: cannot read 'i.nrrd': Permission denied\n$")
 
@@ -284,7 +284,7 @@ class LittleMemory(ProgramTestCase):
         statuses = set()
         for mebibytes in range(40, 400, 20):
             limit = mebibytes << 20
-            done = self.call("--input", path, "--delta", 3, "--threads", 2, "--messages", "python",
+            done = self.call("--input", path, "--delta", 3, "--threads", 2, "--quality", "--messages", "python",
                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
             statuses.add(done.returncode)
             with self.subTest(mebibytes, told=done.stderr):

@@ -147,7 +147,7 @@ class Masks(ProgramTestCase):
         self.assertEqual(names_of(self.folder / "m.vtu"), {1: "coarse", 2: "Lung.left"})
 
     def test_output_is_a_mask(self):
-        self.assert_refused(1, "Lung.left.seg.nrrd", "--input", self.large, self.small, "--save-image", self.small)
+        self.assert_refused(1, "Lung.left.seg.nrrd", "image", "--input", self.large, self.small, "--output", self.small)
 
 
 class Refusal(NamesTestCase):

@@ -82,7 +82,7 @@ class Options(ProgramTestCase):
             self.assertLess(abs(report["elements"] / 30000 - 1), 0.1)
             self.assertEqual(report["elements_asked_for"], 30000)
             self.assertIn({"delta": report["delta"], "elements": report["elements"]}, report["runs"])
-        done = self.mesh("--input", self.input, "--elements", 30000)
+        done = self.mesh("--input", self.input, "--elements", 30000, "--output", "m.vtu")
         self.assertRegex(done.stdout, r"with delta [\d.]+ \(found in \d runs? for 30,000 elements\)\. ")
         report = self.statistics("--input", self.input, "--delta", 2)
         self.assertEqual((report["elements_asked_for"], report["runs"]), (None, []))
@@ -190,7 +190,7 @@ class DataFiles(ProgramTestCase):
         self.mesh("--input", header, "--data-files-anywhere", "--delta", 2, "--output", "mesh.vtu")
         arguments = ("--input", images.write_nrrd(self.folder / "ball.nrrd", ball), "--delta", 2, "--size-image", header)
         self.assert_refused(1, words, *arguments)
-        self.mesh(*arguments, "--data-files-anywhere")
+        self.statistics(*arguments, "--data-files-anywhere")
 
 
 class Quality(ProgramTestCase):
@@ -397,21 +397,29 @@ class Talk(ProgramTestCase):
     """What the program says, and where."""
 
     def test_help(self):
-        done = self.call("--help")
+        short = self.call("--help").stdout
+        self.assertLess(short.count("\n"), 60)
+        self.assertIn("\nExamples:", short)
+        for verb, flags in (("measure", ("--mesh", "--hausdorff")), ("convert", ("--mesh", "--interfaces")), ("image", ("--fill-holes",))):
+            text = self.call(verb, "--help").stdout
+            for flag in flags:
+                self.assertIn(flag + " ", text)
+            self.assertNotIn("--delta ", text)
+        done = self.call("--help", "all")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.call("mesh", "--help").stdout, done.stdout)
         for flag in ("--threads", "--reproducible", "--contention", "--balance", "--pin", "--input", "--delta", "--output", "--plc",
                      "--size ", "--elements", "--interface-size", "--gradation", "--label-size", "--size-image", "--labels", "--smoothing", "--radius-edge",
                      "--facet-angle", "--sliver-angle", "--no-optimise", "--optimise-seconds", "--no-junctions", "--interface-rounds", "--no-manifold", "--grading", "--feature-ratio", "--largest-feature",
                       "--smallest-component", "--exact-components", "--min-component-volume", "--force", "--memory-limit", "--stats", "--progress", "--space", "--series", "--quality", "--hausdorff", "--version", "--help",
                      "--time-scale", "--time-planes", "--slabs", "--periodic", "--slices", "--slice-count", "--rule-order", "--no-picking", "--picks",
-                     "--sliver-bound", "--seed", "--no-fine-grained", "--mesh", "--interfaces", "--uncompressed", "--messages"):
+                     "--sliver-bound", "--seed", "--no-fine-grained", "--uncompressed", "--messages"):
             self.assertIn(flag, done.stdout)
         self.assertIn("\nSpace-time images", done.stdout)
-        self.assertIn("Examples:", done.stdout)
-        for line in done.stdout.split("\n"):
+        for line in (short + done.stdout).split("\n"):
             self.assertLessEqual(len(line), 100, line)
         # --help wins over all other options.
-        self.assertEqual(self.call("--nonsense", "--help").stdout, done.stdout)
+        self.assertEqual(self.call("--nonsense", "--help").stdout, short)
 
     def test_version(self):
         done = self.call("--version")
@@ -448,7 +456,7 @@ class Talk(ProgramTestCase):
             ours, theirs = pty.openpty()
         except OSError as error:
             self.skipTest("no pseudo-terminals here: %s" % error)
-        with subprocess.Popen([PROGRAM, "--input", path, "--delta", "1.2", "--progress"], stdout=subprocess.PIPE,
+        with subprocess.Popen([PROGRAM, "--input", path, "--delta", "1.2", "--progress", "--stats", "s.json"], cwd=self.folder, stdout=subprocess.PIPE,
                               stderr=theirs, text=True) as process:
             os.close(theirs)
             shown = b""
@@ -478,6 +486,8 @@ class Messages(ProgramTestCase):
         self.input = images.write_nrrd(self.folder / "two.nrrd", images.two_labels())
 
     def say(self, status, *arguments):
+        if "--output" not in arguments:
+            arguments += ("--output", "m.vtu")
         done = self.call("--messages", "python", *arguments)
         self.assertEqual(done.returncode, status, done.stderr)
         self.assertNotIn("--", done.stderr)

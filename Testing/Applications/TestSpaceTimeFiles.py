@@ -454,7 +454,7 @@ class Flags(SpaceTimeTestCase):
         self.assertFalse(report["optimisation"]["ran"])
 
     def test_forced_sliver_bound(self):
-        self.mesh("--input", self.input, "--delta", 5, "--sliver-bound", 0.04, "--force")
+        self.statistics("--input", self.input, "--delta", 5, "--sliver-bound", 0.04, "--force")
 
     def test_rule_order_changes_the_mesh(self):
         orders = {}

@@ -11,6 +11,8 @@ import unittest
 from pathlib import Path
 
 PROGRAM = os.environ.get("VOXPLEX_PROGRAM", "voxplex")
+VERBS = ("mesh", "measure", "convert", "image")
+OUTPUTS = ("--output", "--plc", "--stats", "--slices", "--slabs", "--quality", "--hausdorff")
 
 
 def without_topology(text):
@@ -53,8 +55,10 @@ class ProgramTestCase(unittest.TestCase):
         return json.loads((self.folder / "statistics.json").read_text())
 
     def assert_refused(self, status, pattern, *arguments, **options):
-        """A call that must fail with one short message and leave the folder as it was."""
+        """A call that must fail with one short message and leave the folder as it was. If it names no output, one is added."""
         before = self.contents()
+        if arguments and arguments[0] not in VERBS and not any(str(one).startswith(OUTPUTS) for one in arguments):
+            arguments = ("--output", "refused.vtu", *arguments)
         done = self.call(*arguments, **options)
         self.assertEqual(done.returncode, status, done.stderr)
         self.assertEqual(done.stdout, "")

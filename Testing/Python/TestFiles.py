@@ -69,7 +69,7 @@ class Files(unittest.TestCase):
         """What the program writes of an image, it reads as the same image."""
         for path, space in ((self.image, "lps"), (self.series, "lps"), (self.image, "ras")):
             copy = self.folder / "copy.nrrd"
-            subprocess.run([voxplex.program.path(), "--input", path, "--space", space, "--save-image", copy], check=True)
+            subprocess.run([voxplex.program.path(), "image", path, copy, "--space", space], check=True)
             first, second = voxplex.read_segmentation(path), voxplex.read_segmentation(copy)
             numpy.testing.assert_array_equal(first.voxels, second.voxels)
             numpy.testing.assert_allclose(second.origin, first.origin)
@@ -597,7 +597,7 @@ class Files(unittest.TestCase):
             os.dup2(file.fileno(), 2)
             try:
                 for call in (lambda: voxplex.read_segmentation(__file__),
-                             lambda: voxplex.mesh(self.image, 3.0).write(self.folder / "mesh.xyz")):
+                             lambda: voxplex.mesh(self.image, 1.5).write(self.folder / "mesh.xyz")):
                     with self.assertRaises(voxplex.FileError):
                         call()
             finally:

@@ -234,7 +234,7 @@ class CommandLine(unittest.TestCase):
                     row = (k * n + j) * n
                     voxels[row + 5:row + n - 5] = b"\1" * (n - 10)
             (Path(folder) / "large.raw").write_bytes(voxels)
-            with subprocess.Popen([sys.executable, "-m", "voxplex", "--input", str(header), "--delta", "0.4", "--force"],
+            with subprocess.Popen([sys.executable, "-m", "voxplex", "--input", str(header), "--delta", "0.4", "--force", "--quality"],
                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
                 while process.poll() is None and not catches_sigterm(process.pid):
                     time.sleep(0.05)

@@ -38,8 +38,8 @@ class Program(ProgramTestCase):
                  for key, value in (("ID", name), ("LabelValue", label), ("Layer", 0), ("Name", name))}
         images.write_nrrd(self.folder / "dirty.nrrd", labels, key_values=names)
 
-    def run_program(self, *arguments):
-        done = self.call("--input", "dirty.nrrd", *arguments)
+    def run_program(self, *arguments, verb="image"):
+        done = self.call(verb, "--input", "dirty.nrrd", *arguments)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return done.stdout
 
@@ -51,7 +51,7 @@ class Program(ProgramTestCase):
         numpy.testing.assert_array_equal(voxels[inside], self.repaired[inside])
 
     def test_saved_image(self):
-        told = self.run_program(*OPTIONS, "--shell", "Ball=2", "--shell", "7=-1", "--save-image", "clean.nrrd", "--stats", "told.json")
+        told = self.run_program(*OPTIONS, "--shell", "Ball=2", "--shell", "7=-1", "--output", "clean.nrrd", "--stats", "told.json")
         rows = json.loads((self.folder / "told.json").read_text())["repair"]
         self.assertEqual([row["what"] for row in rows], ["fill-holes", "remove-spikes", "min-thickness", "shell", "shell"])
         self.assertRegex(told, r"^fill-holes: label 3 \(Ball\): 2 voxels, at \(14-15, 14, 14\)\n"
@@ -67,19 +67,19 @@ class Program(ProgramTestCase):
         self.check_repaired(voxels)
 
     def test_check_makes_no_mesh(self):
-        told = self.run_program("--check-image")
+        told = self.run_program()
         self.assertEqual(told, "cavities: label 3 (Ball): 2 voxels, at (14-15, 14, 14)\n"
                                "spikes: label 3 (Ball): 5 voxels, at (25-29, 14, 14)\n"
                                "thin: label 3 (Ball): 5 voxels, at (25-29, 14, 14)\n"
                                "thin: label 7 (Sheet): 900 voxels, at (5-34, 5-34, 30)\n")
-        self.assertEqual(self.run_program("--check-image", *OPTIONS).splitlines()[3:], [])
+        self.assertEqual(self.run_program(*OPTIONS).splitlines()[3:], [])
         self.write(self.repaired)
-        self.assertEqual(self.run_program("--check-image"), "Nothing is suspicious.\n")
+        self.assertEqual(self.run_program(), "Nothing is suspicious.\n")
 
     def test_mesh(self):
         """A mesh of the repaired image, the report in the statistics, and the same image to compare with."""
         told = self.run_program(*OPTIONS, "--shell", "Ball=3", "--check-image", "--labels", "Ball", "--delta", 2,
-                                "--output", "mesh.vtu", "--stats", "mesh.json", "--quality")
+                                "--output", "mesh.vtu", "--stats", "mesh.json", "--quality", verb="mesh")
         self.assertIn("\nfill-holes: label 3 (Ball): 2 voxels, at (14-15, 14, 14)\n", told)
         figures = json.loads((self.folder / "mesh.json").read_text())
         self.assertEqual([row["what"] for row in figures["repair"]],
@@ -92,18 +92,18 @@ class Program(ProgramTestCase):
         self.assertEqual(set(figures["labels"]), {"3", "8"})
         volumes = {label: row["volume"] for label, row in figures["labels"].items()}
         self.assertAlmostEqual(volumes["3"] / numpy.count_nonzero(self.repaired == 3), 1, delta=0.02)
-        self.run_program(*OPTIONS, "--shell", "Ball=3", "--mesh", "mesh.vtu", "--labels", "3,8", "--stats", "again.json")
+        self.run_program(*OPTIONS, "--shell", "Ball=3", "--mesh", "mesh.vtu", "--labels", "3,8", "--stats", "again.json", verb="measure")
         again = json.loads((self.folder / "again.json").read_text())
         self.assertEqual(again["image"]["lost_labels"], [])
         self.assertLess(max(abs(row["volume_error"]) for row in again["labels"].values()), 0.03)
         self.assertEqual(again["repair"], figures["repair"][:4])
-        self.assertIn("\nfill-holes: label 3", self.run_program("--fill-holes", 2, "--mesh", "mesh.vtu", "--output", "mesh.msh"))
+        self.assertIn("\nfill-holes: label 3", self.run_program("--fill-holes", 2, "--mesh", "mesh.vtu", verb="measure"))
 
     def test_series(self):
         frames = images.moving_balls(size=12, radius=3.0)
         frames[0, 6, 6, 6] = 0
         images.write_nrrd(self.folder / "dirty.nrrd", frames)
-        told = self.run_program("--fill-holes", 1, "--shell", "6=1", "--save-image", "clean.nrrd")
+        told = self.run_program("--fill-holes", 1, "--shell", "6=1", "--output", "clean.nrrd")
         first = told.splitlines()[0]
         self.assertRegex(first, r"^time 0: fill-holes: label \d+: 1 voxel, at \(6, 6, 6\)$")
         clean = voxplex.read_segmentation(self.folder / "clean.nrrd").voxels
@@ -117,7 +117,7 @@ class Program(ProgramTestCase):
         frames = images.moving_balls(size=12, radius=3.0)
         frames[1] = 0
         images.write_nrrd(self.folder / "dirty.nrrd", frames)
-        told = self.run_program("--shell", "6=1", "--check-image", "--save-image", "clean.nrrd")
+        told = self.run_program("--shell", "6=1", "--check-image", "--output", "clean.nrrd")
         self.assertIn("time 1: shell: label 6: 0 voxels", told)
         clean = voxplex.read_segmentation(self.folder / "clean.nrrd").voxels
         self.assertEqual((int(clean[1].max()), int(clean[2].max())), (0, int(frames.max()) + 1))
@@ -128,12 +128,12 @@ class Program(ProgramTestCase):
         for image, begin in ((frames[0], ""), (frames, "time 1: ")):
             images.write_nrrd(self.folder / "dirty.nrrd", image)
             for output in ("clean.nrrd", "mesh.vtu"):
-                done = self.call("--input", "dirty.nrrd", "--shell", "6=0.3", *(
-                    ("--save-image", output) if output == "clean.nrrd" else ("--delta", 2, "--output", output, "--stats", "run.json")))
+                done = self.call("image" if output == "clean.nrrd" else "mesh", "dirty.nrrd", "--shell", "6=0.3", *(
+                    ("--output", output) if output == "clean.nrrd" else ("--delta", 2, "--output", output, "--stats", "run.json")))
                 self.assertEqual(done.returncode, 0)
                 self.assertRegex(done.stderr, rf"(?m)^voxplex: warning: {begin}--shell: label 6 still touches .* "
                                               r"at \d+ faces .* From 0\.5 on it is closed\.$")
-                self.assertNotIn("shell", self.call("--input", "dirty.nrrd", "--shell", "6=0.5", "--save-image", "out.nrrd").stderr)
+                self.assertNotIn("shell", self.call("image", "dirty.nrrd", "out.nrrd", "--shell", "6=0.5").stderr)
             self.assertGreater(json.loads((self.folder / "run.json").read_text())["repair"][-1]["touching_faces"], 100)
         with self.assertWarnsRegex(voxplex.MeshingWarning, "^shells: label 6 still touches"):
             voxplex.mesh(frames[0], delta=2, shells={6: 0.3})
@@ -143,16 +143,14 @@ class Program(ProgramTestCase):
         frames[1] = 0
         images.write_nrrd(self.folder / "dirty.nrrd", frames)
         for flag in ("--shell", "--min-thickness"):
-            self.assert_refused(1, f"cannot repair 'dirty.nrrd': {flag}: no frame of the image has label 5", "--input", "dirty.nrrd",
-                                flag, "5=1", "--save-image", "clean.nrrd")
+            self.assert_refused(1, f"cannot repair 'dirty.nrrd': {flag}: no frame of the image has label 5", "image", "dirty.nrrd",
+                                flag, "5=1", "--output", "clean.nrrd")
         with self.assertRaisesRegex(voxplex.MeshingError, "shells: no frame of the image has label 5"):
             voxplex.mesh(frames, times=range(5), delta=2, shells={5: 1})
 
     def test_refused(self):
-        for option, arguments in (("--labels", ("--labels", "Nonsense", "--save-image", "out.nrrd")),
-                                  ("--min-component-volume", ("--min-component-volume", 9, "--save-image", "out.nrrd")),
-                                  ("--delta", ("--delta", 3, "--check-image"))):
-            self.assert_refused(2, option + ": only for making a mesh, and none is made", "--input", "dirty.nrrd", *arguments)
+        for option, value in (("--labels", "Nonsense"), ("--min-component-volume", 9), ("--delta", 3)):
+            self.assert_refused(2, f"{option} is an option of 'voxplex mesh'.*, not of 'voxplex image'", "image", "dirty.nrrd", option, value)
         for status, pattern, arguments in (
                 (1, "cannot repair 'dirty.nrrd': --shell: the image has no label 5; it has 3, 7", ("--shell", "5=1")),
                 (2, "no label of the image is called 'Bal'; did you mean 'Ball'", ("--min-thickness", "Bal=1")),
@@ -163,7 +161,7 @@ class Program(ProgramTestCase):
                 (2, "--check-image: grey-value images have no labels", ("--check-image", "--isovalue", 2))):
             self.assert_refused(status, pattern, "--input", "dirty.nrrd", *arguments, "--output", "mesh.vtu")
         self.call("--input", "dirty.nrrd", "--delta", 2, "--output", "mesh.vtu")
-        self.assert_refused(2, "--shell: only with an image beside the mesh", "--mesh", "mesh.vtu", "--shell", "3=1")
+        self.assert_refused(2, "--shell: only with an image beside the mesh", "measure", "mesh.vtu", "--shell", "3=1")
 
 
 class Python(ProgramTestCase):
