@@ -8,6 +8,7 @@ import contextlib
 import errno
 import os
 import re
+import subprocess
 import tempfile
 from typing import Any, Iterator, List, Sequence, Tuple, Union
 
@@ -53,13 +54,26 @@ def temporary_folder() -> Iterator[str]:
     except FileNotFoundError as error:
         raise FileError(f"{error.strerror}; name one with the environment variable TMPDIR") from None
     try:
-        with tempfile.TemporaryDirectory(prefix="voxplex-") as folder:
+        with tempfile.TemporaryDirectory(prefix="voxplex-") as folder, _removal(folder):
             yield folder
     except OSError as error:
         if error.errno in (errno.ENOSPC, errno.EDQUOT) or isinstance(error, FileError) and _IS_FULL.search(str(error)):
             raise FileError(f"the temporary folder {place} is full, which the image and the mesh pass through; choose "
                             "another one with the environment variable TMPDIR") from error
         raise
+
+
+@contextlib.contextmanager
+def _removal(folder: str) -> Iterator[None]:
+    """If the interpreter is killed, nobody else removes the folder: a shell does that waits for the end of its input."""
+    with contextlib.ExitStack() as stack:
+        try:
+            shell = stack.enter_context(subprocess.Popen(["/bin/sh", "-c", 'read -r _; rm -rf -- "$1"', "sh", folder],
+                                                         stdin=subprocess.PIPE, start_new_session=True))
+            stack.callback(shell.kill)
+        except OSError:  # the program does not start either, and says so
+            pass
+        yield
 
 
 def in_words(folder: str) -> List[Tuple[str, str]]:
