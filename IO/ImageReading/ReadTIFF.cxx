@@ -99,25 +99,8 @@ using TIFFHandle = std::unique_ptr<TIFF, TIFFCloser>;
 // Memory is not mapped, so that a file that shrinks is no crash; strips are not divided.
 constexpr const char* Mode = "rmc";
 
-#if TIFFLIB_VERSION >= 20221213
-template <void (*Note)(Source&, const char*, va_list)>
-int Handle(TIFF*, void* data, const char*, const char* format, va_list values)
-{
-  Note(*static_cast<Source*>(data), format, values);
-  return 1; // no other handler is asked
-}
-
-TIFF* OpenWithHandlers(Source& source)
-{
-  const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(
-    TIFFOpenOptionsAlloc(), TIFFOpenOptionsFree);
-  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), Handle<NoteError>, &source);
-  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), Handle<NoteWarning>, &source);
-  return TIFFFdOpenExt(source.Descriptor, "", Mode, options.get());
-}
-#else
-/** Older ones have handlers for the whole process only, which get what is said of other files, too. */
-thread_local Source* current = nullptr;
+/** libtiff's handlers, which all versions have, are those of the whole process: it reads one file at a time. */
+Source* current = nullptr;
 
 template <void (*Note)(Source&, const char*, va_list)>
 void Handle(thandle_t file, const char*, const char* format, va_list values)
@@ -137,7 +120,6 @@ TIFF* OpenWithHandlers(Source& source)
   TIFFSetWarningHandlerExt(Handle<NoteWarning>);
   return TIFFFdOpen(source.Descriptor, "", Mode);
 }
-#endif
 
 TIFFHandle Open(Source& source)
 {
