@@ -135,6 +135,7 @@ ScalarImage ReadSlices(const std::vector<std::string>& files, Reading& reading)
     std::memcpy(
       static_cast<std::byte*>(image.Scalars.get()) + k * bytes, slice.Scalars.get(), bytes);
   }
+  reading.Files = files;
   PlaceAlongAxes(image, { 1, 1, 1 }, {});
   reading.Warnings.emplace_back(
     "it is a folder of slices, which do not say how large their voxels are: they are taken to be "
