@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <tuple>
 
 namespace voxplex
 {
@@ -93,8 +94,9 @@ VolumeShares FindShrunkLabels(
     volumeOfAll += volume;
     wholeOfAll += whole;
   }
-  std::stable_sort(shares.Shrunk.begin(), shares.Shrunk.end(),
-    [](const ShrunkLabel& a, const ShrunkLabel& b) { return a.Fraction < b.Fraction; });
+  std::sort(shares.Shrunk.begin(), shares.Shrunk.end(),
+    [](const ShrunkLabel& a, const ShrunkLabel& b)
+    { return std::tie(a.Fraction, a.Label) < std::tie(b.Fraction, b.Label); });
   shares.All = wholeOfAll > 0.0 ? volumeOfAll / wholeOfAll : 1.0;
   return shares;
 }
