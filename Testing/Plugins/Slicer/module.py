@@ -42,7 +42,8 @@ class ModuleTestCase(unittest.TestCase):
 
     def run_module(self, *arguments):
         done = self.call(*arguments)
-        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+        told = re.sub("[^\n]*warning: The mesh [^\n]* of the volume of [^\n]*\n", "", done.stderr)  # as of any coarse mesh
+        self.assertEqual((done.returncode, told), (0, ""), done.stdout)
         return done.stdout
 
     def contents(self):
