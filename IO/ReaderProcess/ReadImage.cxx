@@ -96,14 +96,17 @@ private:
   int Number;
 };
 
-/** The program beside this library, as it is built and installed. */
+/**
+ * The program beside this library, as it is built and installed. If the library is part of a program (in the wheel), its
+ * file may have the name by which that was started, which is none to look for in the working folder.
+ */
 std::string ReaderPath()
 {
   Dl_info library{};
+  const bool isKnown = dladdr(reinterpret_cast<const void*>(&ReaderPath), &library) != 0;
+  const bool isPath = isKnown && fs::path(library.dli_fname).is_absolute();
   std::error_code ignored;
-  const fs::path file = dladdr(reinterpret_cast<const void*>(&ReaderPath), &library) != 0
-    ? fs::canonical(library.dli_fname, ignored)
-    : fs::path();
+  const fs::path file = fs::canonical(isPath ? library.dli_fname : "/proc/self/exe", ignored);
   return (file.parent_path() / VOXPLEX_READER_NAME).string();
 }
 

@@ -218,7 +218,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(wrong.returncode, 2)
         missing = run("--input", "a file with spaces.nrrd")
         self.assertEqual(missing.returncode, 1)
-        self.assertIn("a file with spaces.nrrd", missing.stderr)
+        self.assertIn("cannot read 'a file with spaces.nrrd': there is no such file", missing.stderr)
 
     @unittest.skipUnless(os.access(PROGRAM, os.X_OK), "the program was not built")
     def test_signals(self):
