@@ -7,60 +7,63 @@
  * Operations are off by default, and are done in the order in which they stand here.
  *
  * @par Input and outputs
- * Port 0: a label image of three dimensions, 0 is background; SetInputArrayToProcess(0, ...) chooses an array, by default
- * the active scalars of points or cells. Frames of a series are repaired one by one. Output 0 is the image with its labels
- * changed, in a larger type if a new label needs it. Output 1 is a vtkTable, a row for each operation and label that it
- * changed: `What`, `Label`, `Name`, `Voxels` that were changed, `Places` (sets of them that faces connect), `Largest` (voxels
- * of the largest place), `First` and `Last`, the corners of its bounding box as indices of voxels from 0 on, `LeftOut`
- * (voxels that an operation wanted, and that have to stay as they are), `TouchingFaces` (of voxels, see Shell).
+ * Port 0: a label image of three dimensions, 0 is background; SetInputArrayToProcess(0, ...) chooses an array, by
+ * default the active scalars of points or cells. Frames of a series are repaired one by one. Output 0 is the image with
+ * its labels changed, in a larger type if a new label needs it. Output 1 is a vtkTable, a row for each operation and
+ * label that it changed: `What`, `Label`, `Name`, `Voxels` that were changed, `Places` (sets of them that faces
+ * connect), `Largest` (voxels of the largest place), `First` and `Last`, the corners of its bounding box as indices of
+ * voxels from 0 on, `LeftOut` (voxels that an operation wanted, and that have to stay as they are), `TouchingFaces` (of
+ * voxels, see Shell).
  *
  * @par FillHoles
- * A cavity is a set of background voxels, connected through faces, that does not touch the border of the image. Cavities
- * of at most FillHoles voxels get the label that has most of the faces around them. Islands of other labels stay; the
- * meshing filters' MinimumComponentVolume is for these.
+ * A cavity is a set of background voxels, connected through faces, that does not touch the border of the image.
+ * Cavities of at most FillHoles voxels get the label that has most of the faces around them. Islands of other labels
+ * stay; the meshing filters' MinimumComponentVolume is for these.
  *
  * @par RemoveSpikes
- * What opening takes from a label, if it touches the rest at one place. Opening is by squares of 2 x 2 voxels in the three
- * planes: it takes strings that are one voxel wide, and no sheet. What touches the rest at several places (arches, and what
- * connects two parts of a label) stays but for its loose ends, and so does a component that opening would take as a whole.
- * The voxels get the label of most faces around them, or become background. Voxels beyond the border count as those of the
- * label, but a string that ends there is a spike.
+ * What opening takes from a label, if it touches the rest at one place. Opening is by squares of 2 x 2 voxels in the
+ * three planes: it takes strings that are one voxel wide, and no sheet. What touches the rest at several places
+ * (arches, and what connects two parts of a label) stays but for its loose ends, and so does a component that opening
+ * would take as a whole. The voxels get the label of most faces around them, or become background. Voxels beyond the
+ * border count as those of the label, but a string that ends there is a spike.
  *
  * @par MinimumThickness
- * Where a label is thinner than a length, it is thickened to at least that; oblique sheets to half a voxel less or more. A
- * place is thin if it is farther than the length from where a ball of this diameter fits into the label. Balls of this diameter
- * around the middle of thin places are added. They replace background and other labels, but no label that has a smallest
- * thickness itself, and no whole component. A ball that would reach one of these moves away from it, by up to 3/4 of the
- * length, so that the free side grows. Where there is no room the label stays thinner: a warning has the number of voxels
- * that it lacks. What is beyond the border of the image counts as the label.
+ * Where a label is thinner than a length, it is thickened to at least that; oblique sheets to half a voxel less or
+ * more. A place is thin if it is farther than the length from where a ball of this diameter fits into the label. Balls
+ * of this diameter around the middle of thin places are added. They replace background and other labels, but no label
+ * that has a smallest thickness itself, and no whole component. A ball that would reach one of these moves away from
+ * it, by up to 3/4 of the length, so that the free side grows. Where there is no room the label stays thinner: a
+ * warning has the number of voxels that it lacks. What is beyond the border of the image counts as the label.
  *
  * @par Shell
  * A positive thickness adds a new label around a label, in background. A voxel belongs to it if its centre is in an
- * ellipsoid around the centre of a voxel of the label, whose half axes are the thickness and half a voxel. If the thickness is
- * at least half the longest edge of a voxel, so do all voxels that share a face, an edge or a corner with the label, and the
- * shell is closed. If it is less, a warning has the number of faces between the label and background. Where two shells meet, they share the gap in proportion to their thicknesses; a voxel
- * in the middle is that of the smaller label. A negative thickness is that of a shell inside: voxels of the label itself
- * become the new label, by their distance from other labels and background, also from those that the label encloses. New
- * labels are FirstShellLabel and those that follow, by default from the highest label, of voxels and in the field data array
+ * ellipsoid around the centre of a voxel of the label, whose half axes are the thickness and half a voxel. If the
+ * thickness is at least half the longest edge of a voxel, so do all voxels that share a face, an edge or a corner with
+ * the label, and the shell is closed. If it is less, a warning has the number of faces between the label and
+ * background. Where two shells meet, they share the gap in proportion to their thicknesses; a voxel in the middle is
+ * that of the smaller label. A negative thickness is that of a shell inside: voxels of the label itself become the new
+ * label, by their distance from other labels and background, also from those that the label encloses. New labels are
+ * FirstShellLabel and those that follow, by default from the highest label, of voxels and in the field data array
  * `LabelValues`, plus one. `LabelNames` gets "NAME shell".
  *
  * @par CheckImage
- * Output 1 then has rows for what is suspicious after the repair, too; nothing is changed. What is: `components` beside the
- * largest of a label, `crumbs` (components of fewer than 8 voxels), `cavities`, `spikes`, `thin` (parts thinner than two
- * voxels), `necks` (parts thinner than three voxels that connect thicker ones), `gaps` (background thinner than two
- * voxels, at each label beside it), `contacts` (voxels that meet at an edge or corner only; counted are voxels), `border` (voxels at the border of
- * the image), `absent` (named labels without voxels), `unnamed` (labels without a name, if others have one).
+ * Output 1 then has rows for what is suspicious after the repair, too; nothing is changed. What is: `components` beside
+ * the largest of a label, `crumbs` (components of fewer than 8 voxels), `cavities`, `spikes`, `thin` (parts thinner
+ * than two voxels), `necks` (parts thinner than three voxels that connect thicker ones), `gaps` (background thinner
+ * than two voxels, at each label beside it), `contacts` (voxels that meet at an edge or corner only; counted are
+ * voxels), `border` (voxels at the border of the image), `absent` (named labels without voxels), `unnamed` (labels
+ * without a name, if others have one).
  *
  * Lengths are in the unit of the spacing, along the image's axes, which are taken for orthogonal.
  *
  * @par Errors
- * Misuse is reported with vtkErrorMacro and leaves the outputs empty; GetErrorMessage() keeps the reason. A label without
- * voxels is an error, but not in a series.
+ * Misuse is reported with vtkErrorMacro and leaves the outputs empty; GetErrorMessage() keeps the reason. A label
+ * without voxels is an error, but not in a series.
  *
- * Time is linear in the voxels, for each MinimumThickness and Shell in those of the label's bounding box; memory is about 10
- * bytes a voxel beside both images, 20 with shells. MinimumThickness needs 80 more for each voxel of a block; along each axis
- * this has 11 times the length, or 64 voxels and 6 times the length, or the whole image. If AbortExecute is set, the filter
- * stops and leaves the outputs empty.
+ * Time is linear in the voxels, for each MinimumThickness and Shell in those of the label's bounding box; memory is
+ * about 10 bytes a voxel beside both images, 20 with shells. MinimumThickness needs 80 more for each voxel of a block;
+ * along each axis this has 11 times the length, or 64 voxels and 6 times the length, or the whole image. If
+ * AbortExecute is set, the filter stops and leaves the outputs empty.
  */
 #ifndef vtkSegmentationRepair_h
 #define vtkSegmentationRepair_h

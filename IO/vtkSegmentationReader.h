@@ -12,10 +12,11 @@
  *
  * @par Masks
  * Several files, and those of a folder of images that are not DICOM, are masks, one for each structure, inside where
- * they are not 0 (real numbers, from 0 to 1: above MaskThreshold). They become labels 1, 2, ... of one image of unsigned short,
- * in the order given, or that of names in a folder (rib_2 before rib_10), and have the names of their files. So do
- * segments of a .seg.nrrd file that overlap. Segments of a DICOM segmentation keep their numbers. A warning tells what overlaps, and which masks are without a voxel. Beside
- * the result, of 2 bytes a voxel, one mask is in memory at a time.
+ * they are not 0 (real numbers, from 0 to 1: above MaskThreshold). They become labels 1, 2, ... of one image of
+ * unsigned short, in the order given, or that of names in a folder (rib_2 before rib_10), and have the names of their
+ * files. So do segments of a .seg.nrrd file that overlap. Segments of a DICOM segmentation keep their numbers. A
+ * warning tells what overlaps, and which masks are without a voxel. Beside the result, of 2 bytes a voxel, one mask is
+ * in memory at a time.
  *
  * @par Output
  * vtkImageData with origin, spacing and direction matrix as in the file, in the coordinates that Space

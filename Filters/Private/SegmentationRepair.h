@@ -71,8 +71,8 @@ public:
   std::vector<RepairRow> Thicken(const std::map<std::int64_t, double>& lengths);
 
   /**
-   * A layer around labels, or, of a negative thickness, inside of labels, as new labels first, first + 1, ... Where layers
-   * around labels meet, they share the gap in proportion to their thicknesses.
+   * A layer around labels, or, of a negative thickness, inside of labels, as new labels first, first + 1, ... Where
+   * layers around labels meet, they share the gap in proportion to their thicknesses.
    * @throws InputError if the image has one of these
    */
   std::vector<RepairRow> MakeShells(

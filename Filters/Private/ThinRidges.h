@@ -40,9 +40,9 @@ struct HalfVoxels
   }
 
   /**
-   * Balls around the middle of thin places. Where one would reach what has to stay, it moves to the nearest place where it
-   * does not, by up to FarthestMove radii: what it lacks on one side it has on the other. If there is none, it stays, without what
-   * is behind.
+   * Balls around the middle of thin places. Where one would reach what has to stay, it moves to the nearest place where
+   * it does not, by up to FarthestMove radii: what it lacks on one side it has on the other. If there is none, it
+   * stays, without what is behind.
    * @param blocked what has to stay; null if nothing has
    * @param box where the result is wanted
    * @return 1 in balls; empty if there are none

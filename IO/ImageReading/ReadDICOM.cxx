@@ -463,8 +463,7 @@ FileNames ChooseSeries(
 {
   RefuseIf(available.empty(),
     "the folder holds no DICOM images, no slices (.tif, .png), and no files that are named as "
-    "masks are "
-    "(.nii.gz, .nrrd)");
+    "masks are (.nii.gz, .nrrd)");
   if (const auto exact = available.find(wanted); exact != available.end() && !wanted.empty())
   {
     return exact->second.Files;

@@ -42,8 +42,8 @@ struct ImageAnswer
 };
 
 /**
- * Warnings with one of these words are about a place that was guessed: the spacing, or origin and directions. If the format
- * is known to be silent, the warning is NoPlace alone, which only concerns masks that are joined.
+ * Warnings with one of these words are about a place that was guessed: the spacing, or origin and directions. If the
+ * format is known to be silent, the warning is NoPlace alone, which only concerns masks that are joined.
  */
 inline constexpr const char* OfSpacing = "SetSpacing()";
 inline constexpr const char* OfPlace = "image lies";
@@ -52,9 +52,9 @@ inline constexpr const char* NoPlace = "it does not say where the image lies";
 using VoxelAllocator = std::function<std::shared_ptr<void>(std::size_t bytes)>;
 
 /**
- * Reads an image here and now, for the reading process, in the scalar type that the file has. The first bytes of a file tell its format, not
- * its name: NRRD, NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK, MGH, GIPL, MRC. A fourth dimension is time; last dimensions
- * of length 1 do not count, so that an image with one frame is a 3D image. Never prints.
+ * Reads an image here and now, for the reading process, in the scalar type that the file has. The first bytes of a file
+ * tell its format, not its name: NRRD, NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK, MGH, GIPL, MRC. A fourth dimension
+ * is time; last dimensions of length 1 do not count, so that an image with one frame is a 3D image. Never prints.
  *
  * @throws FileError that names the image: no such file, another format, truncated, damaged, no single numbers in three
  * or four dimensions, a place that is none

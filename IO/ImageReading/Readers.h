@@ -81,8 +81,9 @@ ScalarImage ReadNRRD(const std::string& path, Reading& reading);
  * The image lies where the sform says, if its code is positive, else where the qform says, if its code is; nibabel and
  * FSL do so, too. If both are there and differ, a warning tells by how much. If neither is, it lies along the axes of
  * RAS from 0, with a warning. Lengths in metres or micrometres are turned into millimetres, and times in milliseconds
- * or microseconds into seconds; numbers with no unit are those of the file, and so, with a warning, with another. Voxels are scaled as
- * scl_slope and scl_inter say. ANALYZE does not say how an image lies: along the axes of LPS, with a warning.
+ * or microseconds into seconds; numbers with no unit are those of the file, and so, with a warning, with another.
+ * Voxels are scaled as scl_slope and scl_inter say. ANALYZE does not say how an image lies: along the axes of LPS, with
+ * a warning.
  */
 bool IsNIfTI(const InputFile& file);
 ScalarImage ReadNIfTI(const std::string& path, Reading& reading);
@@ -139,8 +140,8 @@ ScalarImage ReadPNGSlice(const std::string& path, Reading& reading);
 
 ///@{
 /**
- * A folder with a file for each slice, in the order of names, "s2" before "s10": TIFF or PNG. They have one size and type, and
- * numbers without gaps. Voxels are 1 x 1 x 1, with a warning.
+ * A folder with a file for each slice, in the order of names, "s2" before "s10": TIFF or PNG. They have one size and
+ * type, and numbers without gaps. Voxels are 1 x 1 x 1, with a warning.
  *
  * @return the files; none if one of the folder is DICOM
  */
