@@ -88,8 +88,9 @@ class UnequalTimes(SpaceTimeTestCase):
         np.testing.assert_array_equal(same.points, mesh.points)
         np.testing.assert_array_equal(same.cells, mesh.cells)
         # Slices and figures are those of the given frames.
-        done = self.call("--input", plain, *option, "--delta", 1.5, "--no-picking", "--slices", "s_", "--stats", "s.json",
-                         "--quality")
+        # One thread: ball 2 is 2.9 % too large in one frame, and 3 % are warned of.
+        done = self.call("--input", plain, *option, "--delta", 1.5, "--no-picking", "--threads", 1, "--slices", "s_",
+                         "--stats", "s.json", "--quality")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual([time for time, _ in meshfiles.read_slices(self.folder / "s.pvd")], [7, 9, 13, 15])
         report = json.loads((self.folder / "s.json").read_text())

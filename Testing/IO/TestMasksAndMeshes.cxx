@@ -6,6 +6,7 @@
 #include <vtkImageToTetMeshFilter.h>
 #include <vtkMasksToSegmentation.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkSegmentationReader.h>
 #include <vtkSimplexMeshWriter.h>
 #include <vtkSmartPointer.h>
@@ -97,6 +98,7 @@ int TestMasksAndMeshes(int, char*[])
   std::string pattern = (fs::temp_directory_path() / "voxplex-meshes-XXXXXX").string();
   const fs::path root = mkdtemp(pattern.data());
   std::vector<std::string> wrong(2);
+  vtkObjectFactory::GetRegisteredFactories(); // VTK makes this list once, but without a lock
   std::vector<std::thread> threads;
   for (std::size_t i = 0; i < wrong.size(); ++i)
   {

@@ -6,6 +6,7 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
+#include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkSegmentationReader.h>
 
@@ -98,6 +99,7 @@ int TestReaderThreads(int, char*[])
 
   const struct stat before = StandardError();
   std::atomic<int> wrong = 0;
+  vtkObjectFactory::GetRegisteredFactories(); // VTK makes this list once, but without a lock
   {
     std::vector<std::jthread> team;
     for (int t = 0; t < threads; ++t)
