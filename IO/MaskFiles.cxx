@@ -4,7 +4,6 @@
 
 #include "FileError.h"
 #include "ImageReading/FilesOfFolder.h"
-#include "ImageReading/Units.h"
 #include "MasksOnGrid.h"
 #include "Text.h"
 
@@ -135,26 +134,10 @@ private:
   std::vector<Said> All;
 };
 
-bool IsOf(const char* words, const std::string& warning)
+ImageAnswer ReadOne(ImageRequest request, const std::string& path)
 {
-  return warning.find(words) != warning.npos;
-}
-
-/** Of one image, of which the reading process tells no more about its place. */
-ImageAnswer ReadWithPlace(const ImageRequest& request, const std::string& path)
-{
-  ImageRequest one = request;
-  one.Path = path;
-  ImageAnswer answer = ReadImage(one);
-  ScalarImage& image = answer.Image;
-  for (const std::string& warning : answer.Warnings)
-  {
-    image.HasPlace = image.HasPlace && !IsOf(OfPlace, warning);
-    image.HasSpacing = image.HasSpacing && !IsOf(OfSpacing, warning);
-    image.Unit = image.Unit.empty() ? UnitIn(warning) : image.Unit;
-  }
-  std::erase_if(answer.Warnings, [](const std::string& warning) { return IsOf(NoPlace, warning); });
-  return answer;
+  request.Path = path;
+  return ReadImage(request);
 }
 
 /** Nothing if their grids differ, and have not been offered. */
@@ -165,24 +148,24 @@ std::optional<ImageAnswer> ReadMasks(const std::vector<std::string>& paths,
   MasksOnGrid masks(resample, request.MaskThreshold);
   for (std::size_t i = 0; offer && i < paths.size(); ++i)
   {
-    masks.OfferGrid(ReadWithPlace(request, paths[i]).Image, shown(paths[i]));
+    masks.OfferGrid(ReadOne(request, paths[i]).Image, shown(paths[i]));
   }
   if (offer && isPlaced)
   {
     masks.CheckOneOrigin();
   }
   FileWarnings warnings;
+  FileWarnings guesses;
   std::vector<std::string> files = paths;
   for (const std::string& path : paths)
   {
-    ImageAnswer answer = ReadWithPlace(request, path);
-    if (masks.TakePlace(answer.Image, shown(path)))
-    {
-      std::erase_if(answer.Warnings,
-        [](const std::string& warning)
-        { return IsOf(OfPlace, warning) || IsOf(OfSpacing, warning); });
-    }
+    ImageAnswer answer = ReadOne(request, path);
     warnings.Add(path, answer.Warnings);
+    if (!masks.TakePlace(answer.Image, shown(path)))
+    {
+      warnings.Add(path, answer.PlaceGuesses);
+      guesses.Add(path, answer.SpacingGuesses);
+    }
     files.insert(files.end(), answer.Files.begin(), answer.Files.end());
     if (!masks.Add({ NameOf(path), std::nullopt }, std::move(answer.Image), shown(path)))
     {
@@ -190,6 +173,7 @@ std::optional<ImageAnswer> ReadMasks(const std::vector<std::string>& paths,
     }
   }
   ImageAnswer all = masks.Finish(request.Rule, warnings.Lines());
+  all.SpacingGuesses = guesses.Lines();
   all.Files = std::move(files);
   return all;
 }
@@ -208,7 +192,7 @@ ImageAnswer ReadImageOrMasks(
   }
   if (masks.empty())
   {
-    return ReadWithPlace(request, paths.front());
+    return ReadOne(request, paths.front());
   }
   try
   {

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 using namespace voxplex::io;
@@ -237,7 +238,13 @@ bool vtkSegmentationReader::Read()
       this->ResampleMasks, this->IsPlaced());
     data.Image = std::move(answer.Image);
     data.Labels = std::move(answer.Labels);
-    data.Warnings = std::move(answer.Warnings);
+    data.Warnings = std::move(answer.PlaceGuesses);
+    if (!std::all_of(std::begin(this->Spacing), std::end(this->Spacing),
+          [](double number) { return number > 0; }))
+    {
+      std::ranges::copy(answer.SpacingGuesses, std::back_inserter(data.Warnings));
+    }
+    std::ranges::copy(answer.Warnings, std::back_inserter(data.Warnings));
     data.Files = std::move(answer.Files);
     if (!this->FrameTimes.empty())
     {
@@ -268,8 +275,6 @@ void vtkSegmentationReader::PlaceImage()
   const std::array<double, 3> signs = SignsFromLPS(static_cast<voxplex::io::Space>(this->Space));
   const bool hasDirection = std::any_of(std::begin(this->Direction), std::end(this->Direction),
     [](double number) { return number != 0; });
-  const auto given = std::count_if(
-    std::begin(this->Spacing), std::end(this->Spacing), [](double number) { return number > 0; });
   std::array<Vector3, 3> steps{};
   Vector3 origin{};
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -285,11 +290,6 @@ void vtkSegmentationReader::PlaceImage()
     }
     origin[axis] =
       std::isnan(this->Origin[axis]) ? image.Origin[axis] : signs[axis] * this->Origin[axis];
-  }
-  if (given == 3) // what the warning asks for
-  {
-    std::erase_if(this->Private->Warnings,
-      [](const std::string& warning) { return warning.find("SetSpacing()") != std::string::npos; });
   }
   if (!this->IsPlaced())
   {

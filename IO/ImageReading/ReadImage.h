@@ -37,17 +37,14 @@ struct ImageAnswer
   LabelTable Labels; ///< names and colours that the file has itself
   std::vector<std::string>
     Warnings; ///< what was odd but could be read, one line each, with the name of the image
+  ///@{
+  /** The same of what the reader guessed: the spacing, or origin and directions. */
+  std::vector<std::string> SpacingGuesses;
+  std::vector<std::string> PlaceGuesses;
+  ///@}
   std::vector<std::string>
     Files; ///< that were read, if they are others than those that were asked for
 };
-
-/**
- * Warnings with one of these words are about a place that was guessed: the spacing, or origin and directions. If the
- * format is known to be silent, the warning is NoPlace alone, which only concerns masks that are joined.
- */
-inline constexpr const char* OfSpacing = "SetSpacing()";
-inline constexpr const char* OfPlace = "image lies";
-inline constexpr const char* NoPlace = "it does not say where the image lies";
 
 using VoxelAllocator = std::function<std::shared_ptr<void>(std::size_t bytes)>;
 

@@ -156,24 +156,31 @@ ScalarImage ReadFileOrFolder(const ImageRequest& request, Reading& reading)
   return ReadFile(request.Path, reading);
 }
 
+std::vector<std::string> Of(const std::string& path, std::vector<std::string> warnings)
+{
+  for (std::string& warning : warnings)
+  {
+    warning.insert(0, path + ": ");
+  }
+  return warnings;
+}
+
 } // namespace
 
 void WarnOfSpacing(Reading& reading)
 {
-  reading.Warnings.push_back(
+  reading.SpacingGuesses.push_back(
     "its header gives no spacing of the voxels, which is taken to be 1; set it with SetSpacing()");
-}
-
-void WarnOfPlace(Reading& reading)
-{
-  reading.Warnings.emplace_back(NoPlace);
 }
 
 ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& allocate)
 {
   const std::string start = "cannot read '" + request.Path + "': ";
-  Reading reading{ allocate, request.DataFilesAnywhere, request.Rule, request.MaskThreshold, {}, {},
-    {} };
+  Reading reading;
+  reading.Allocate = allocate;
+  reading.DataFilesAnywhere = request.DataFilesAnywhere;
+  reading.Rule = request.Rule;
+  reading.MaskThreshold = request.MaskThreshold;
   ImageAnswer answer;
   try
   {
@@ -201,10 +208,12 @@ ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& all
   }
   answer.Labels = std::move(reading.Labels);
   answer.Files = std::move(reading.Files);
-  for (const std::string& warning : reading.Warnings)
-  {
-    answer.Warnings.push_back(request.Path + ": " + warning);
-  }
+  answer.Image.HasPlace = reading.HasPlace && reading.PlaceGuesses.empty();
+  answer.Image.HasSpacing = reading.SpacingGuesses.empty();
+  answer.Image.Unit = reading.Unit;
+  answer.Warnings = Of(request.Path, reading.Warnings);
+  answer.SpacingGuesses = Of(request.Path, reading.SpacingGuesses);
+  answer.PlaceGuesses = Of(request.Path, reading.PlaceGuesses);
   return answer;
 }
 

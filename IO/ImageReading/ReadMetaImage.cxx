@@ -57,7 +57,7 @@ Geometry ReadGeometry(const TextHeader& header, std::size_t axes, Reading& readi
   if (geometry.Origin.empty())
   {
     geometry.Origin.assign(axes, 0.0);
-    WarnOfPlace(reading);
+    reading.HasPlace = false;
   }
   if (geometry.Directions.empty())
   {
@@ -182,7 +182,7 @@ ScalarImage ReadMetaImage(const std::string& path, Reading& reading)
     AdoptTimes(geometry, count, image);
   }
   const std::string unit = header.Word({ "distanceunits" }, "?");
-  WarnOfLengths(unit == "?" ? "" : unit, reading.Warnings);
+  WarnOfLengths(unit == "?" ? "" : unit, reading);
   ReadVoxels(FindVoxels(header, reading), image, reading);
   return image;
 }

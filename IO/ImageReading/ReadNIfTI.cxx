@@ -389,7 +389,7 @@ Affine FindAffine(const Header& header, double unit, const ScalarImage& image, R
   {
     return AffineOfQForm(header);
   }
-  reading.Warnings.push_back(header.IsAnalyze
+  reading.PlaceGuesses.push_back(header.IsAnalyze
       ? "the format ANALYZE does not say how an image lies: its axes are taken for those of LPS"
       : "its header does not say where the image lies (qform and sform have the code 0): its axes "
         "are taken for those of RAS, from 0 on");
@@ -400,7 +400,7 @@ Affine FindAffine(const Header& header, double unit, const ScalarImage& image, R
 double UnitOfLength(const Header& header, Reading& reading)
 {
   const std::int64_t code = header.Units & 7;
-  WarnOfLengths(code > 3 ? "unit " + std::to_string(code) : "", reading.Warnings);
+  WarnOfLengths(code > 3 ? "unit " + std::to_string(code) : "", reading);
   return code == 1 ? 1e3 : code == 3 ? 1e-3 : 1.0;
 }
 
@@ -412,7 +412,7 @@ double UnitOfTime(const Header& header, Reading& reading)
     { 48, "rad/s" }, { 56, "unit 56" } };
   if (const auto other = others.find(code); other != others.end())
   {
-    WarnOfTimes(other->second, reading.Warnings);
+    WarnOfTimes(other->second, reading);
   }
   return code == 16 ? 1e-3 : code == 24 ? 1e-6 : 1.0;
 }

@@ -308,8 +308,8 @@ Vector3 FactorsOfUnits(const TextHeader& header, const Roles& roles, Reading& re
   {
     units[i] = ofSpace.empty() ? UnitAt(ofAxes, roles.Space[i]) : UnitAt(ofSpace, i);
   }
-  WarnOfLengths(units[0], reading.Warnings);
-  return ToUnitOfFirst(units, reading.Warnings);
+  WarnOfLengths(units[0], reading);
+  return ToUnitOfFirst(units, reading);
 }
 
 /** 3D Slicer's sequences have "axis 0 index unit:=ms". */
@@ -364,10 +364,7 @@ void PlaceImage(const TextHeader& header, const std::vector<Axis>& axes, const R
     }
   }
   Place(image, steps, origin);
-  if (!hasOrigin)
-  {
-    WarnOfPlace(reading);
-  }
+  reading.HasPlace = hasOrigin;
   if (!hasDirections && !hasSpacings)
   {
     WarnOfSpacing(reading);
@@ -410,7 +407,7 @@ bool AdoptIndexValues(
 void AdoptTimes(const TextHeader& header, const Axis& axis, std::size_t number, ScalarImage& image,
   Reading& reading)
 {
-  WarnOfTimes(UnitOfTime(header, axis, number), reading.Warnings);
+  WarnOfTimes(UnitOfTime(header, axis, number), reading);
   if (AdoptIndexValues(header, number, image, reading))
   {
     return;

@@ -85,9 +85,11 @@ void PlaceMGH(const Fields& fields, ScalarImage& image, Reading& reading)
   Place(image, steps, origin);
   if (!saysWhere)
   {
-    reading.Warnings.push_back("its header does not say where the image lies: coronal slices of "
-                               "voxels of 1 mm were taken, as FreeSurfer does; set their size with "
-                               "SetSpacing()");
+    reading.HasPlace = false;
+    reading.SpacingGuesses.push_back(
+      "its header does not say where the image lies: coronal slices of "
+      "voxels of 1 mm were taken, as FreeSurfer does; set their size with "
+      "SetSpacing()");
   }
 }
 
@@ -315,7 +317,7 @@ ScalarImage ReadMRC(const std::string& path, Reading& reading)
   constexpr std::int32_t firstOfStacks = 401;
   RefuseIf(fields.Get<std::int32_t>(88) >= firstOfStacks,
     "it is a stack of volumes: extract one of them first");
-  WarnOfLengths("angstrom", reading.Warnings);
+  WarnOfLengths("angstrom", reading);
   stored.Files = { path };
   stored.BytesToSkip = static_cast<std::int64_t>(SizeOfMRC) + extension;
   ReadVoxels(stored, image, reading);

@@ -137,10 +137,10 @@ ScalarImage ReadSlices(const std::vector<std::string>& files, Reading& reading)
   }
   reading.Files = files;
   PlaceAlongAxes(image, { 1, 1, 1 }, {});
-  reading.Warnings.emplace_back(
+  reading.SpacingGuesses.emplace_back(
     "it is a folder of slices, which do not say how large their voxels are: they are taken to be "
     "1 x 1 x 1: give their size with SetSpacing()");
-  WarnOfPlace(reading);
+  reading.HasPlace = false;
   return image;
 }
 

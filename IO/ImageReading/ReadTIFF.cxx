@@ -658,16 +658,13 @@ ScalarImage ReadTIFF(const std::string& path, Reading& reading)
   const InputFile file(path);
   PageReader reader(file);
   const TIFFPages pages = reader.List(reading.Warnings);
-  const TIFFStack stack = DescribeStack(pages, reading.Warnings);
+  const TIFFStack stack = DescribeStack(pages, reading);
 
   ScalarImage image;
   image.Type = reader.Type();
   SetSizes(image, { pages.Width, pages.Length, stack.Slices, stack.Frames });
   PlaceAlongAxes(image, stack.Spacing, stack.Origin.value_or(Vector3{}));
-  if (!stack.Origin)
-  {
-    WarnOfPlace(reading);
-  }
+  reading.HasPlace = stack.Origin.has_value();
   image.TimeSpacing = stack.TimeStep;
   const std::size_t bytes = reader.BytesOfPage();
   reader.CheckClaim(bytes, stack.Pages.size());

@@ -46,6 +46,18 @@ struct Reading
   /** What was odd but could be read: a line each, without the name of the image. */
   std::vector<std::string> Warnings;
 
+  ///@{
+  /** The same of what the file does not say, and the reader guessed: the spacing, or origin and directions. */
+  std::vector<std::string> SpacingGuesses;
+  std::vector<std::string> PlaceGuesses;
+  ///@}
+
+  /** Whether the file says where the image lies. A format that never does has no guess to tell. */
+  bool HasPlace = true;
+
+  /** Of lengths; empty: millimetres. */
+  std::string Unit;
+
   /** Names and colours of labels, where the file has them. */
   LabelTable Labels;
 
@@ -53,11 +65,8 @@ struct Reading
   std::vector<std::string> Files;
 };
 
-///@{
-/** Where a header gives no spacing, or no origin. */
+/** Where a header gives no spacing. */
 void WarnOfSpacing(Reading& reading);
-void WarnOfPlace(Reading& reading);
-///@}
 
 ///@{
 /**

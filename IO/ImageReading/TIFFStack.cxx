@@ -19,8 +19,6 @@ namespace voxplex::io
 namespace
 {
 
-using Warnings = std::vector<std::string>;
-
 // --- Fields of a description
 
 template <typename T>
@@ -84,7 +82,7 @@ struct VoxelSize
 };
 
 /** All lengths will have the unit of the first axis. */
-void SetSpacing(TIFFStack& stack, const VoxelSize& size, Warnings& warnings)
+void SetSpacing(TIFFStack& stack, const VoxelSize& size, Reading& reading)
 {
   const auto isKnown = [](const std::optional<double>& length) { return length.has_value(); };
   const auto isOne = [](const std::optional<double>& length)
@@ -94,7 +92,7 @@ void SetSpacing(TIFFStack& stack, const VoxelSize& size, Warnings& warnings)
   if (first == size.Length.end() ||
     (!hasUnit && std::all_of(size.Length.begin(), size.Length.end(), isOne)))
   {
-    warnings.push_back(
+    reading.SpacingGuesses.push_back(
       "it does not say how large its voxels are (the resolution of a TIFF file is that of a "
       "print), and they are taken to be 1 x 1 x 1: give their size with SetSpacing()");
     return;
@@ -105,27 +103,28 @@ void SetSpacing(TIFFStack& stack, const VoxelSize& size, Warnings& warnings)
     if (!size.Length[axis])
     {
       units[axis] = size.Unit[static_cast<std::size_t>(first - size.Length.begin())];
-      warnings.push_back(std::string("it does not say how large its voxels are along ") +
-        "xyz"[axis] + ", which is taken to be 1: give their size with SetSpacing()");
+      reading.SpacingGuesses.push_back(
+        std::string("it does not say how large its voxels are along ") + "xyz"[axis] +
+        ", which is taken to be 1: give their size with SetSpacing()");
     }
   }
-  const Vector3 factors = ToUnitOfFirst(units, warnings);
+  const Vector3 factors = ToUnitOfFirst(units, reading);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     stack.Spacing[axis] = size.Length[axis].value_or(1.0) * factors[axis];
   }
   if (IsUnitOfLength(units[0]))
   {
-    WarnOfLengths(units[0], warnings);
+    WarnOfLengths(units[0], reading);
   }
   else
   {
-    warnings.push_back("its lengths have no unit, and the mesh has the same numbers");
+    reading.Warnings.push_back("its lengths have no unit, and the mesh has the same numbers");
   }
 }
 
 void SetTimeStep(
-  TIFFStack& stack, std::optional<double> step, const std::string& unit, Warnings& warnings)
+  TIFFStack& stack, std::optional<double> step, const std::string& unit, Reading& reading)
 {
   if (stack.Frames == 1)
   {
@@ -133,15 +132,16 @@ void SetTimeStep(
   }
   if (!step || *step == 0)
   {
-    warnings.push_back("it does not give the time from frame to frame, which is taken to be 1; use "
-                       "SetTimeScale() to weigh time against space");
+    reading.Warnings.push_back(
+      "it does not give the time from frame to frame, which is taken to be 1; use "
+      "SetTimeScale() to weigh time against space");
     return;
   }
   constexpr double largest = 1e12;
   RefuseIf(!(*step > 0 && *step < largest), "its description has ", *step,
     " for the time from frame to frame, which must be a positive number: correct it");
   stack.TimeStep = *step;
-  WarnOfTimes(unit, warnings);
+  WarnOfTimes(unit, reading);
 }
 
 // --- The order of pages
@@ -245,7 +245,7 @@ std::int64_t FindPages(TIFFStack& stack, const TIFFPages& pages, std::int64_t cl
 
 /** Numbers of grey that are not those that are stored. */
 void ReadGreyCalibration(
-  TIFFStack& stack, const TIFFPages& pages, const TextFields& fields, Warnings& warnings)
+  TIFFStack& stack, const TIFFPages& pages, const TextFields& fields, Reading& reading)
 {
   const std::string function = FindText(fields, "cf");
   if (function.empty() || function == "20" || function == "21") // none
@@ -258,7 +258,7 @@ void ReadGreyCalibration(
   stack.IsSignedWithOffset = isStraight && offset == -32768.0 && pages.IsUInt16;
   if (!stack.IsSignedWithOffset && !(isStraight && offset == 0.0))
   {
-    warnings.push_back(
+    reading.Warnings.push_back(
       "its calibration of grey values is not applied: labels are the numbers that are stored");
   }
 }
@@ -285,7 +285,7 @@ VoxelSize FindVoxelSizeOfImageJ(const TIFFPages& pages, const TextFields& fields
   return size;
 }
 
-TIFFStack DescribeImageJ(const TIFFPages& pages, Warnings& warnings)
+TIFFStack DescribeImageJ(const TIFFPages& pages, Reading& reading)
 {
   TIFFStack stack;
   const TextFields fields = ParseLines(pages.Description);
@@ -300,7 +300,7 @@ TIFFStack DescribeImageJ(const TIFFPages& pages, Warnings& warnings)
   RefuseIf(FindText(fields, "inverty") == "true",
     "its y axis runs upwards (inverty=true), so that the mesh would be a mirror image: in ImageJ, "
     "clear 'Invert Y coordinates' and save it again");
-  SetSpacing(stack, FindVoxelSizeOfImageJ(pages, fields), warnings);
+  SetSpacing(stack, FindVoxelSizeOfImageJ(pages, fields), reading);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     if (const auto origin = FindNumber<double>(fields, std::string(1, "xyz"[axis]) + "origin"))
@@ -309,8 +309,8 @@ TIFFStack DescribeImageJ(const TIFFPages& pages, Warnings& warnings)
       (*stack.Origin)[axis] = -*origin * stack.Spacing[axis]; // it is counted in voxels
     }
   }
-  SetTimeStep(stack, FindNumber<double>(fields, "finterval"), FindText(fields, "tunit"), warnings);
-  ReadGreyCalibration(stack, pages, fields, warnings);
+  SetTimeStep(stack, FindNumber<double>(fields, "finterval"), FindText(fields, "tunit"), reading);
+  ReadGreyCalibration(stack, pages, fields, reading);
   return stack;
 }
 
@@ -325,7 +325,7 @@ std::optional<double> NumberAt(const std::vector<std::string>& list, std::size_t
 }
 
 /** Lists such as axes=X,Y,Z,Time and scales=0.5,0.5,2,1. */
-TIFFStack DescribeSCIFIO(const TIFFPages& pages, Warnings& warnings)
+TIFFStack DescribeSCIFIO(const TIFFPages& pages, Reading& reading)
 {
   const TextFields fields = ParseLines(pages.Description);
   const std::vector<std::string> names = Split(FindText(fields, "axes"), ',');
@@ -360,8 +360,8 @@ TIFFStack DescribeSCIFIO(const TIFFPages& pages, Warnings& warnings)
   }
   TIFFStack stack;
   NumberPages(stack, axes, pages.Count());
-  SetSpacing(stack, size, warnings);
-  SetTimeStep(stack, timeStep, timeUnit, warnings);
+  SetSpacing(stack, size, reading);
+  SetTimeStep(stack, timeStep, timeUnit, reading);
   return stack;
 }
 
@@ -381,7 +381,7 @@ std::string FindJSON(const std::string& text, const std::string& key, char first
  * {"axes": "TZYX", "shape": [2, 12, 30, 20]}. If there are none, one axis besides those of a page is that of slices. A
  * last axis may be that of samples, of which a page has one.
  */
-TIFFStack DescribeTifffile(const TIFFPages& pages, Warnings& warnings)
+TIFFStack DescribeTifffile(const TIFFPages& pages, Reading& reading)
 {
   std::vector<std::string> shape = Split(FindJSON(pages.Description, "shape", '[', ']'), ',');
   std::string names = FindJSON(pages.Description, "axes", '"', '"');
@@ -417,8 +417,8 @@ TIFFStack DescribeTifffile(const TIFFPages& pages, Warnings& warnings)
     axes.push_back({ Slices, count });
   }
   NumberPages(stack, axes, count);
-  SetSpacing(stack, {}, warnings);
-  SetTimeStep(stack, {}, "", warnings);
+  SetSpacing(stack, {}, reading);
+  SetTimeStep(stack, {}, "", reading);
   return stack;
 }
 
@@ -508,7 +508,7 @@ std::vector<PageAxis> FindAxesOfOME(const TextFields& fields)
   return axes;
 }
 
-TIFFStack DescribeOME(const TIFFPages& pages, Warnings& warnings)
+TIFFStack DescribeOME(const TIFFPages& pages, Reading& reading)
 {
   const OMEMetadata metadata = ParseOMEMetadata(pages.Description);
   if (const std::string other = FindOtherFile(metadata); !other.empty())
@@ -533,44 +533,44 @@ TIFFStack DescribeOME(const TIFFPages& pages, Warnings& warnings)
       page = found[page];
     }
   }
-  SetSpacing(stack, FindVoxelSizeOfOME(metadata.Pixels), warnings);
+  SetSpacing(stack, FindVoxelSizeOfOME(metadata.Pixels), reading);
   SetTimeStep(stack, FindNumber<double>(metadata.Pixels, "TimeIncrement"),
-    FindText(metadata.Pixels, "TimeIncrementUnit"), warnings);
+    FindText(metadata.Pixels, "TimeIncrementUnit"), reading);
   return stack;
 }
 
 // --- All of them
 
-TIFFStack DescribeAny(const TIFFPages& pages, Warnings& warnings)
+TIFFStack DescribeAny(const TIFFPages& pages, Reading& reading)
 {
   const std::string& description = pages.Description;
   if (description.rfind("ImageJ=", 0) == 0)
   {
-    return DescribeImageJ(pages, warnings);
+    return DescribeImageJ(pages, reading);
   }
   if (description.rfind("SCIFIO=", 0) == 0)
   {
-    return DescribeSCIFIO(pages, warnings);
+    return DescribeSCIFIO(pages, reading);
   }
   if (description.rfind("{", 0) == 0 && !FindJSON(description, "shape", '[', ']').empty())
   {
-    return DescribeTifffile(pages, warnings);
+    return DescribeTifffile(pages, reading);
   }
   if (IsOMEMetadata(description))
   {
-    return DescribeOME(pages, warnings);
+    return DescribeOME(pages, reading);
   }
   TIFFStack stack;
   NumberPages(stack, { { Slices, pages.Count() } }, pages.Count());
-  SetSpacing(stack, {}, warnings);
+  SetSpacing(stack, {}, reading);
   return stack;
 }
 
 } // namespace
 
-TIFFStack DescribeStack(const TIFFPages& pages, Warnings& warnings)
+TIFFStack DescribeStack(const TIFFPages& pages, Reading& reading)
 {
-  TIFFStack stack = DescribeAny(pages, warnings);
+  TIFFStack stack = DescribeAny(pages, reading);
   RefuseIf(stack.Slices == 1 && stack.Frames == 1,
     "it is a picture of one slice, and a label image has several: give a volume (TIFF with a page "
     "for each slice, NRRD, NIfTI, MetaImage, DICOM, ...)");

@@ -18,6 +18,8 @@
 namespace voxplex::io
 {
 
+struct Reading;
+
 /** What the directories of the file say. */
 struct TIFFPages
 {
@@ -65,7 +67,7 @@ struct TIFFStack
  * @throws FileError: metadata that do not fit the pages, or are damaged; channels; several images; parts in other
  * files; one slice alone
  */
-TIFFStack DescribeStack(const TIFFPages& pages, std::vector<std::string>& warnings);
+TIFFStack DescribeStack(const TIFFPages& pages, Reading& reading);
 
 } // namespace voxplex::io
 

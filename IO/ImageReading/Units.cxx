@@ -19,9 +19,6 @@ struct Unit
   std::string_view Spellings; ///< between blanks
 };
 
-constexpr std::string_view LengthsAre = "its lengths are in ";
-constexpr std::string_view AndTheMesh = ", and so is the mesh";
-
 constexpr std::array<Unit, 10> Lengths{
   Unit{ "picometres", 1e-12, " pm picometer picometers picometre picometres " },
   Unit{ "angstroms", 1e-10, " \u00C5 \u212B A angstrom angstroms " },
@@ -59,7 +56,7 @@ bool IsUnitOfLength(const std::string& unit)
   return !unit.empty() && !IsAmong(unit, "pixel pixels voxel voxels null none ???");
 }
 
-Vector3 ToUnitOfFirst(const std::array<std::string, 3>& units, std::vector<std::string>& warnings)
+Vector3 ToUnitOfFirst(const std::array<std::string, 3>& units, Reading& reading)
 {
   Vector3 factors{ 1.0, 1.0, 1.0 };
   const Unit* const first = FindUnit(units[0]);
@@ -72,7 +69,7 @@ Vector3 ToUnitOfFirst(const std::array<std::string, 3>& units, std::vector<std::
     }
     else if (units[axis] != units[0])
     {
-      warnings.push_back("its axes have the units '" + Excerpt(units[0]) + "' and '" +
+      reading.SpacingGuesses.push_back("its axes have the units '" + Excerpt(units[0]) + "' and '" +
         Excerpt(units[axis]) +
         "', and how one is converted is not known: give the size of voxels with SetSpacing()");
     }
@@ -80,28 +77,22 @@ Vector3 ToUnitOfFirst(const std::array<std::string, 3>& units, std::vector<std::
   return factors;
 }
 
-void WarnOfLengths(const std::string& unit, std::vector<std::string>& warnings)
+void WarnOfLengths(const std::string& unit, Reading& reading)
 {
   const Unit* const known = FindUnit(unit);
   if (!unit.empty() && (!known || known->Name != "millimetres"))
   {
-    warnings.push_back(std::string(LengthsAre) +
-      (known ? std::string(known->Name) : "'" + Excerpt(unit) + "'") + std::string(AndTheMesh));
+    reading.Unit = known ? std::string(known->Name) : "'" + Excerpt(unit) + "'";
+    reading.Warnings.push_back("its lengths are in " + reading.Unit + ", and so is the mesh");
   }
 }
 
-std::string UnitIn(const std::string& warning)
-{
-  const std::size_t at = warning.find(LengthsAre);
-  const std::string unit = at == warning.npos ? "" : warning.substr(at + LengthsAre.size());
-  return unit.substr(0, unit.find(AndTheMesh));
-}
-
-void WarnOfTimes(const std::string& unit, std::vector<std::string>& warnings)
+void WarnOfTimes(const std::string& unit, Reading& reading)
 {
   if (!unit.empty() && !IsAmong(unit, "s sec secs second seconds null none ???"))
   {
-    warnings.push_back("its times are in '" + Excerpt(unit) + "', and so are those of the mesh");
+    reading.Warnings.push_back(
+      "its times are in '" + Excerpt(unit) + "', and so are those of the mesh");
   }
 }
 

@@ -10,10 +10,10 @@
 #define voxplex_io_Units_h
 
 #include "Placement.h"
+#include "Readers.h"
 
 #include <array>
 #include <string>
-#include <vector>
 
 namespace voxplex::io
 {
@@ -25,16 +25,13 @@ bool IsUnitOfLength(const std::string& unit);
  * What lengths along three axes are multiplied with to have the unit of the first. If that is not known, it is 1, and a
  * warning says so.
  */
-Vector3 ToUnitOfFirst(const std::array<std::string, 3>& units, std::vector<std::string>& warnings);
+Vector3 ToUnitOfFirst(const std::array<std::string, 3>& units, Reading& reading);
 
 ///@{
 /** Unless it is the millimetre, or the second. @param unit empty if the file does not say */
-void WarnOfLengths(const std::string& unit, std::vector<std::string>& warnings);
-void WarnOfTimes(const std::string& unit, std::vector<std::string>& warnings);
+void WarnOfLengths(const std::string& unit, Reading& reading);
+void WarnOfTimes(const std::string& unit, Reading& reading);
 ///@}
-
-/** The unit of lengths that a warning tells; else empty. */
-std::string UnitIn(const std::string& warning);
 
 } // namespace voxplex::io
 

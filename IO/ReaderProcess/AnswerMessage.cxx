@@ -108,7 +108,9 @@ std::string ToText(const AnswerMessage& message)
     { "origin", image.Origin }, { "spacing", image.Spacing }, { "direction", image.Direction },
     { "time", { image.TimeOrigin, image.TimeSpacing } }, { "times", image.Times },
     { "offset", message.Offset }, { "labels", LabelsToJson(message.Answer.Labels) },
-    { "warnings", message.Answer.Warnings }, { "files", message.Answer.Files } }
+    { "warnings", message.Answer.Warnings }, { "spacing guesses", message.Answer.SpacingGuesses },
+    { "place guesses", message.Answer.PlaceGuesses }, { "has place", image.HasPlace },
+    { "unit", image.Unit }, { "files", message.Answer.Files } }
                                           : Json{ { "error", message.Error } };
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -128,6 +130,11 @@ AnswerMessage ParseAnswer(std::string_view text, std::uint64_t memory)
   message.Offset = json.at("offset").get<std::uint64_t>();
   message.Answer.Labels = ParseLabels(json.at("labels"));
   message.Answer.Warnings = json.at("warnings").get<std::vector<std::string>>();
+  message.Answer.SpacingGuesses = json.at("spacing guesses").get<std::vector<std::string>>();
+  message.Answer.PlaceGuesses = json.at("place guesses").get<std::vector<std::string>>();
+  image.HasSpacing = message.Answer.SpacingGuesses.empty();
+  image.HasPlace = json.at("has place").get<bool>();
+  image.Unit = json.at("unit").get<std::string>();
   message.Answer.Files = json.at("files").get<std::vector<std::string>>();
   const std::uint64_t bytes =
     image.NumberOfVoxels() * static_cast<std::uint64_t>(image.Frames) * SizeOf(image.Type);

@@ -34,6 +34,10 @@ AnswerMessage MakeAnswer()
   message.Answer.Labels.Entries[7] = { "Fémur \"left\"", std::array<double, 3>{ 0.1, 0.2, 1.0 } };
   message.Answer.Labels.Entries[1LL << 40] = { "far", std::nullopt };
   message.Answer.Warnings = { "odd\nlines", "not UTF-8: \xff" };
+  message.Answer.SpacingGuesses = { "1 is a guess" };
+  message.Answer.PlaceGuesses = { "LPS is a guess" };
+  message.Answer.Image.HasPlace = false;
+  message.Answer.Image.Unit = "micrometres";
   message.Answer.Files = { "voxels.raw" };
   return message;
 }
@@ -68,6 +72,10 @@ void RoundTrip()
       !labels.at(1LL << 40).Color,
     "labels");
   Expect(after.Answer.Warnings.size() == 2 && after.Answer.Warnings[0] == "odd\nlines", "warnings");
+  Expect(after.Answer.SpacingGuesses == before.Answer.SpacingGuesses &&
+      after.Answer.PlaceGuesses == before.Answer.PlaceGuesses && !b.HasSpacing && !b.HasPlace &&
+      b.Unit == "micrometres",
+    "guesses");
   Expect(after.Answer.Files == std::vector<std::string>{ "voxels.raw" }, "files");
 
   AnswerMessage refusal;
@@ -115,6 +123,10 @@ void Refusals()
   Refuses("labels", { { 3 } });
   Refuses("labels", { { 3, "Tibia", { 1, 0 } } });
   Refuses("warnings", 7);
+  Refuses("spacing guesses", { 1 });
+  Refuses("place guesses", "LPS");
+  Refuses("has place", 0);
+  Refuses("unit", nullptr);
   Refuses("error", "");
   for (const char* text : { "", "{}", "[]", "{", "nothing", "{\"error\": 3}" })
   {

@@ -44,7 +44,7 @@ class ReadingProcess(FolderTestCase):
             os.dup2(memory, 3)
         done = subprocess.run([READER, self.path, "", "0", "0", "0.5"], capture_output=True, pass_fds=(3,), timeout=60)
         greeting, answer = done.stdout.decode().split("\n", 1)
-        self.assertEqual(greeting, "voxplex image reader 3")
+        self.assertEqual(greeting, "voxplex image reader 4")
         self.assertIn('"spacing":[1.5,0.75,0.125]', answer)
         self.assertEqual((done.returncode, done.stderr), (0, b""))
 
