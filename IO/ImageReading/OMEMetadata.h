@@ -7,17 +7,14 @@
 #ifndef voxplex_io_OMEMetadata_h
 #define voxplex_io_OMEMetadata_h
 
+#include "XMLParser.h"
+
 #include <cstddef>
-#include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
 namespace voxplex::io
 {
-
-/** Attributes and the like, by their names. */
-using TextFields = std::map<std::string, std::string, std::less<>>;
 
 struct OMEMetadata
 {

@@ -32,8 +32,7 @@ T ParseNumber(std::string_view name, std::string_view text)
 
 std::string FindText(const TextFields& fields, std::string_view name)
 {
-  const auto field = fields.find(name);
-  return field == fields.end() ? std::string() : std::string(Trim(field->second));
+  return std::string(Trim(TextOf(fields, name)));
 }
 
 /** Empty if the field is missing. @throws FileError if it is no number */

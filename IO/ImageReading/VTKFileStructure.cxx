@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VTKFileStructure.h"
 
-#include "Expat.h"
 #include "Fields.h"
 #include "FileError.h"
 #include "ScalarImage.h"
 #include "Text.h"
+#include "XMLParser.h"
 
 #include <vtkBase64Utilities.h>
 
@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -100,8 +99,6 @@ struct Letters
 /** What comes before the appended data. */
 struct Structure
 {
-  XML_Parser Parser = nullptr;
-  bool HasDocumentType = false;
   std::string Wrong; ///< an attribute that is none, and that VTK would leave out
   std::string Kind;  ///< of what the file holds
   bool IsCompressed = false;
@@ -161,23 +158,6 @@ void CheckCounts(const Counts& counts, std::uint64_t bytes, const Structure& str
     " bytes, the last of ", last, ", and has ", bytes, " bytes");
 }
 
-Structure& At(void* data)
-{
-  return *static_cast<Structure*>(data);
-}
-
-std::string Attribute(const char** attributes, std::string_view name)
-{
-  for (; *attributes; attributes += 2)
-  {
-    if (name == attributes[0])
-    {
-      return attributes[1];
-    }
-  }
-  return {};
-}
-
 /** The same numbers with one blank between them. */
 std::string Normalize(const std::string& numbers)
 {
@@ -190,10 +170,10 @@ std::string Normalize(const std::string& numbers)
 }
 
 /** An attribute of so many numbers, if it is there. */
-void CheckNumbers(Structure& structure, const char** attributes, const char* name,
+void CheckNumbers(Structure& structure, const TextFields& attributes, const char* name,
   std::size_t count, Limits limits = {})
 {
-  const std::string text = Attribute(attributes, name);
+  const std::string text = TextOf(attributes, name);
   const std::vector<std::string_view> words = Words(text);
   const bool areNumbers = words.size() == count &&
     std::all_of(words.begin(), words.end(),
@@ -208,7 +188,7 @@ void CheckNumbers(Structure& structure, const char** attributes, const char* nam
   }
 }
 
-void StartArray(Structure& structure, const char** attributes)
+void StartArray(Structure& structure, const TextFields& attributes)
 {
   constexpr double mostComponents = 10'000;
   constexpr double mostTuples =
@@ -217,20 +197,20 @@ void StartArray(Structure& structure, const char** attributes)
   CheckNumbers(structure, attributes, "NumberOfTuples", 1,
     structure.IsInFields ? Limits{ 0, mostTuples } : Limits{});
   CheckNumbers(structure, attributes, "offset", 1, { 0 });
-  const std::string type = Attribute(attributes, "type");
+  const std::string type = TextOf(attributes, "type");
   const std::optional<Limits> limits = LimitsOfType(type);
   if (!limits && !(type == "String" && structure.IsInFields)) // VTK's reader crashes
   {
     structure.Wrong = "type=\"" + Excerpt(type) + "\" of an array";
   }
-  const std::string format = Attribute(attributes, "format");
+  const std::string format = TextOf(attributes, "format");
   if (format == "ascii" && type != "Float32" && type != "Float64")
   {
     structure.OfText = limits;
   }
   if (format == "appended")
   {
-    const std::string offset = Attribute(attributes, "offset");
+    const std::string offset = TextOf(attributes, "offset");
     const std::optional<std::uint64_t> value = ToNumber<std::uint64_t>(offset);
     if (!value)
     {
@@ -245,22 +225,21 @@ void StartArray(Structure& structure, const char** attributes)
 }
 
 /** A piece that may be one of a mesh. */
-void StartMesh(Structure& structure, const char** attributes)
+void StartMesh(Structure& structure, const TextFields& attributes)
 {
   for (const char* const name : { "NumberOfPoints", "NumberOfCells", "NumberOfVerts",
          "NumberOfLines", "NumberOfStrips", "NumberOfPolys" })
   {
     CheckNumbers(structure, attributes, name, 1, { 0 });
-    const auto number = ToNumber<double>(Attribute(attributes, name));
+    const auto number = ToNumber<double>(TextOf(attributes, name));
     structure.MostClaimed = std::max(structure.MostClaimed, number.value_or(0));
   }
 }
 
-void StartElement(void* data, const char* elementName, const char** attributes)
+void StartElement(
+  Structure& structure, XMLParser& parser, std::string_view name, const TextFields& attributes)
 {
   constexpr int deepest = 100; // VTK calls itself for each
-  Structure& structure = At(data);
-  const std::string_view name(elementName);
   if (++structure.Depth > deepest)
   {
     structure.Wrong = "elements in more than " + std::to_string(deepest) + " others";
@@ -271,21 +250,21 @@ void StartElement(void* data, const char* elementName, const char** attributes)
   }
   if (name == "VTKFile")
   {
-    structure.Kind = Attribute(attributes, "type");
-    structure.IsCompressed = !Attribute(attributes, "compressor").empty();
-    structure.IsBigEndian = Attribute(attributes, "byte_order") == "BigEndian";
-    structure.BytesOfCount = Attribute(attributes, "header_type") == "UInt64" ? 8 : 4;
+    structure.Kind = TextOf(attributes, "type");
+    structure.IsCompressed = !TextOf(attributes, "compressor").empty();
+    structure.IsBigEndian = TextOf(attributes, "byte_order") == "BigEndian";
+    structure.BytesOfCount = TextOf(attributes, "header_type") == "UInt64" ? 8 : 4;
   }
   else if (name == "ImageData")
   {
-    structure.WholeExtent = Normalize(Attribute(attributes, "WholeExtent"));
+    structure.WholeExtent = Normalize(TextOf(attributes, "WholeExtent"));
     CheckNumbers(structure, attributes, "Spacing", 3);
     CheckNumbers(structure, attributes, "Origin", 3);
     CheckNumbers(structure, attributes, "Direction", 9);
   }
   else if (name == "Piece")
   {
-    structure.Extents.push_back(Normalize(Attribute(attributes, "Extent")));
+    structure.Extents.push_back(Normalize(TextOf(attributes, "Extent")));
     StartMesh(structure, attributes);
   }
   else if (name == "FieldData" || name == "PointData" || name == "CellData")
@@ -299,9 +278,9 @@ void StartElement(void* data, const char* elementName, const char** attributes)
   else if (name == "AppendedData")
   {
     structure.IsAppended = true;
-    structure.IsBase64 = Attribute(attributes, "encoding") == "base64";
-    structure.AppendedTag = OffsetOf(structure.Parser);
-    XML_StopParser(structure.Parser, XML_FALSE); // what follows may be no XML
+    structure.IsBase64 = TextOf(attributes, "encoding") == "base64";
+    structure.AppendedTag = parser.Offset();
+    parser.Stop(); // what follows may be no XML
   }
 }
 
@@ -316,19 +295,17 @@ void CheckWord(Structure& structure)
   structure.Word.clear();
 }
 
-void AddText(void* data, const char* text, int length)
+void AddText(Structure& structure, std::string_view text)
 {
-  Structure& structure = At(data);
   if (structure.Nested > 0)
   {
     return;
   }
   if (structure.OfBase64)
   {
-    structure.OfBase64->Add({ text, static_cast<std::size_t>(length) });
+    structure.OfBase64->Add(text);
   }
-  for (const char letter :
-    std::string_view(text, structure.OfText ? static_cast<std::size_t>(length) : 0))
+  for (const char letter : structure.OfText ? text : std::string_view())
   {
     if (IsBlank(letter))
     {
@@ -341,9 +318,8 @@ void AddText(void* data, const char* text, int length)
   }
 }
 
-void EndElement(void* data, const char* /*name*/)
+void EndElement(Structure& structure)
 {
-  Structure& structure = At(data);
   --structure.Depth;
   if (structure.Nested > 0)
   {
@@ -364,24 +340,12 @@ void EndElement(void* data, const char* /*name*/)
   }
 }
 
-/** VTK's files have none. */
-void RefuseDocumentType(void* data, const char* /*name*/, const char* /*system*/,
-  const char* /*identifier*/, int /*hasInternalSubset*/)
-{
-  At(data).HasDocumentType = true;
-  XML_StopParser(At(data).Parser, XML_FALSE);
-}
-
 Structure Parse(const InputFile& file)
 {
-  const std::unique_ptr<std::remove_pointer_t<XML_Parser>, void (*)(XML_Parser)> parser(
-    XML_ParserCreate(nullptr), XML_ParserFree);
   Structure structure;
-  structure.Parser = parser.get();
-  XML_SetUserData(parser.get(), &structure);
-  XML_SetElementHandler(parser.get(), StartElement, EndElement);
-  XML_SetCharacterDataHandler(parser.get(), AddText);
-  XML_SetStartDoctypeDeclHandler(parser.get(), RefuseDocumentType);
+  XMLParser parser({ [&](std::string_view name, const TextFields& attributes)
+    { StartElement(structure, parser, name, attributes); },
+    [&] { EndElement(structure); }, [&](std::string_view text) { AddText(structure, text); } });
   std::vector<std::byte> buffer(1 << 20);
   std::uint64_t position = 0;
   bool isLast = false;
@@ -390,14 +354,12 @@ Structure Parse(const InputFile& file)
     const std::size_t got = file.ReadAt(position, buffer);
     position += got;
     isLast = got < buffer.size();
-    if (XML_Parse(parser.get(), reinterpret_cast<const char*>(buffer.data()), static_cast<int>(got),
-          isLast) != XML_STATUS_OK &&
-      !structure.IsAppended)
+    const std::string_view part(reinterpret_cast<const char*>(buffer.data()), got);
+    if (!parser.Parse(part, isLast) && !structure.IsAppended)
     {
-      RefuseIf(structure.HasDocumentType,
+      RefuseIf(parser.HasDocumentType(),
         "it has a document type, which VTK's files have not: take that line out");
-      Refuse(Damaged, XML_ErrorString(XML_GetErrorCode(parser.get())), " in line ",
-        LineOf(parser.get()));
+      Refuse(Damaged, parser.Error());
     }
   }
   return structure;
