@@ -118,6 +118,32 @@ std::int64_t ToLabel(
     begin + "several labels are called " + Quoted(text) + ": " + list + "; give numbers");
 }
 
+/** Those of 3-7, or one. @throws UsageError */
+void AddLabels(
+  const std::string& text, const io::LabelTable& table, std::vector<std::int64_t>& labels)
+{
+  constexpr std::int64_t most = 100'000;
+  const std::size_t dash = text.find('-');
+  const auto first = io::ToNumber<std::int64_t>(text.substr(0, dash));
+  const auto last =
+    io::ToNumber<std::int64_t>(dash == std::string::npos ? "" : text.substr(dash + 1));
+  if (!first || !last || !LabelsCalled(text, table).empty())
+  {
+    labels.push_back(ToLabel("labels", text, table));
+    return;
+  }
+  if (!(*first >= 1 && *first <= *last && *last - *first < most))
+  {
+    throw UsageError("--labels: " + Quoted(text) +
+      " is not a range of labels, such as 3-7: from 1 on, the smaller first, at most 100000 of "
+      "them");
+  }
+  for (std::int64_t label = *first; label <= *last; ++label)
+  {
+    labels.push_back(label);
+  }
+}
+
 std::map<std::int64_t, double> ToSizes(
   const std::string& option, const std::vector<LabelSizeText>& texts, const io::LabelTable& table)
 {
@@ -211,7 +237,7 @@ LabelSelection SelectLabels(const Parameters& p, const io::LabelTable& table)
     const bool isOneName = LabelsCalled(text, table).size() == 1;
     for (const std::string& label : isOneName ? std::vector{ text } : SplitAtCommas(text))
     {
-      labels.push_back(ToLabel("labels", label, table));
+      AddLabels(label, table, labels);
     }
   }
   std::sort(labels.begin(), labels.end());

@@ -332,7 +332,7 @@ Options of the first that are wanted most:
   --delta LENGTH          sampling distance of the interfaces
   --elements NUMBER       in place of it: the number of elements
   --size LENGTH           upper bound of the elements' circumradii
-  --labels LIST           mesh these labels only: 1,2,5 or Tibia,Femur
+  --labels LIST           mesh these labels only: 1,2,5-9 or Tibia,Femur
   --plc FILE              write the interfaces, too
   --stats FILE            write figures about the mesh
   --threads NUMBER        default: all cores

@@ -49,6 +49,7 @@ class Selection(NamesTestCase):
             (("--labels", "Tibia, left", "--labels", "Left hippocampus"), {3, 7}),
             (("--labels", "Left hippocampus,7"), {3, 7}),
             (("--labels", "7"), {7}),
+            (("--labels", "3-3,7-7"), {3, 7}),
             ((), {3, 7}),
         ):
             with self.subTest(arguments):
@@ -173,6 +174,16 @@ class Refusal(NamesTestCase):
     def test_no_names(self):
         self.refuse("--labels: 'Femur' is not a number, and the labels of the image have no names",
                     "--labels", "Femur")
+
+    def test_ranges(self):
+        self.image = images.write_nrrd(self.folder / "two.nrrd", np.where(images.two_labels(16, 6.0) == 7, 4,
+                                                                         images.two_labels(16, 6.0)))
+        self.assertEqual(self.labels("--labels", "3-4"), {3, 4})
+        self.refuse("Label 5 was asked for, but does not occur", "--labels", "3-5", status=1)
+        for text in ("0-3", "4-3", "1-100001", "3-9223372036854775807"):
+            self.refuse(f"--labels: '{text}' is not a range of labels, such as 3-7", "--labels", text)
+        (self.folder / "names.txt").write_text("3 A\n4 1-2\n")
+        self.assertEqual(self.labels("--label-table", "names.txt", "--labels", "1-2"), {4})
 
     def test_ambiguous(self):
         (self.folder / "names.txt").write_text("3 Bone\n7 Bone\n")
