@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Readers.h"
 
+#include "CaretLabels.h"
 #include "Fields.h"
 #include "Placement.h"
 #include "StoredVoxels.h"
@@ -476,6 +477,40 @@ StoredVoxels FindVoxels(const Header& header, const Reading& reading)
   return stored;
 }
 
+/** Names of labels, in an extension that lies between the header and the voxels. A damaged one is left out. */
+void ReadExtensions(const Header& header, Reading& reading)
+{
+  constexpr std::size_t most = 1 << 26;
+  const InputFile file(header.Path);
+  const std::size_t end =
+    header.HoldsVoxels ? std::min(most, static_cast<std::size_t>(header.Offset)) : most;
+  const std::string bytes = UnpackBeginning(file, end);
+  const Fields fields(bytes, header.IsBigEndian);
+  std::size_t at = header.Length;
+  if (header.IsAnalyze || bytes.size() < at + 8 || bytes[at - 4] == 0)
+  {
+    return;
+  }
+  try
+  {
+    while (reading.Labels.Entries.empty() && at + 8 <= bytes.size())
+    {
+      const std::int32_t size = fields.Get<std::int32_t>(at);
+      RefuseIf(size < 8 || static_cast<std::size_t>(size) > bytes.size() - at, "it has ", size,
+        " bytes, and the header ", bytes.size() - at, " for it");
+      reading.Labels = ParseCaretLabels(
+        std::string_view(bytes).substr(at + 8, static_cast<std::size_t>(size) - 8));
+      at += static_cast<std::size_t>(size);
+    }
+  }
+  catch (const FileError& error)
+  {
+    reading.Warnings.push_back(
+      std::string("an extension of its header, which may hold names of labels, is damaged: ") +
+      error.what());
+  }
+}
+
 } // namespace
 
 bool IsNIfTI(const InputFile& file)
@@ -496,6 +531,7 @@ ScalarImage ReadNIfTI(const std::string& path, Reading& reading)
     AdoptTimes(*header, image, reading);
   }
   ReadVoxels(FindVoxels(*header, reading), image, reading);
+  ReadExtensions(*header, reading);
   const bool isScaled =
     header->Slope != 0 && std::isfinite(header->Slope) && std::isfinite(header->Intercept);
   if (isScaled)

@@ -9,6 +9,11 @@ from pathlib import Path
 import numpy as np
 
 import images
+
+try:
+    import nibabel
+except ImportError:
+    nibabel = None
 from iotesting import FolderTestCase, table_of, warnings_of
 
 AAL = Path("/usr/share/mricron/templates/aal.nii.gz")
@@ -265,6 +270,60 @@ class Segments(FolderTestCase):
         reader.Update()
         self.assertRegex(warnings_of(reader)[1], "the name of label 2 is not in UTF-8")
         self.assertEqual(table_of(reader.GetOutput()), {})
+
+
+@unittest.skipIf(nibabel is None, "nibabel was not found (apt-get install python3-nibabel)")
+class Extensions(FolderTestCase):
+    """Tables of Connectome Workbench and of TotalSegmentator (--ml), in files that nibabel writes."""
+
+    XML = """<?xml version="1.0" encoding="UTF-8"?> <CaretExtension> <Date><![CDATA[2013-07-14T05:45:09]]></Date>
+        <VolumeInformation Index="0"> <LabelTable>
+        <Label Key="0" Red="1" Green="1" Blue="1" Alpha="0"><![CDATA[???]]></Label>
+        <Label Key="3" Red="1.0" Green="0.2" Blue="0" Alpha="1"><![CDATA[vertebrae_L3 & <x>]]></Label>
+        <Label Key="7" Red="300" Green="0" Blue="0" Alpha="1"> kíhn </Label> <Label Key="4"></Label>
+        </LabelTable> </VolumeInformation>
+        <VolumeInformation Index="1"> <LabelTable> <Label Key="4">other</Label> </LabelTable> </VolumeInformation>
+        </CaretExtension>\n"""
+    WANTED = {3: ("vertebrae_L3 & <x>", (255, 51, 0)), 7: ("kíhn", None)}
+
+    def save(self, name, text, code=0, kind="Nifti1Image", order="<"):
+        kind = getattr(nibabel, kind)
+        array = slices([3, 4, 7], np.int16).T
+        image = kind(array, np.eye(4), kind.header_class(endianness=order))
+        image.header.set_data_dtype(order + "i2")
+        image.header.extensions.append(nibabel.nifti1.Nifti1Extension("comment", b"first"))
+        image.header.extensions.append(nibabel.nifti1.Nifti1Extension(code, text.encode()))
+        nibabel.save(image, self.folder / name)
+        return str(self.folder / name)
+
+    def test_all_kinds_of_files(self):
+        for name, kind, order in (("i.nii", "Nifti1Image", "<"), ("i.nii.gz", "Nifti1Image", ">"), ("2.nii", "Nifti2Image", ">"),
+                                  ("p.hdr", "Nifti1Pair", "<"), ("q.hdr.gz", "Nifti2Pair", "<")):
+            with self.subTest(name=name):
+                path = self.save(name, self.XML, 30 if kind.endswith("Pair") else 0, kind, order)
+                reader = self.reader(path)
+                self.assertEqual((warnings_of(reader), reader.GetLabelTableSource()), ([], path))
+                self.assertEqual(table_of(reader.GetOutput()), self.WANTED)
+
+    def test_others_and_damaged(self):
+        for wrong, told in (("<other/>", None), ("", None), (self.XML[:-30], "unclosed token in line"),
+                            (self.XML.replace('"3"', '"x"'), "a label has the key 'x'"),
+                            (self.XML.replace("?> <Caret", "?><!DOCTYPE a [<!ENTITY b 'c'>]><Caret"), "document type")):
+            with self.subTest(told=told):
+                reader = self.reader(self.save("w.nii", wrong))
+                self.assertEqual(table_of(reader.GetOutput()), {})
+                self.assertEqual(len(warnings_of(reader)), told is not None)
+                if told:
+                    self.assertRegex(warnings_of(reader)[0], "which may hold names of labels, is damaged: .*" + told)
+
+    def test_sizes_that_are_wrong(self):
+        whole = Path(self.save("s.nii", self.XML)).read_bytes()
+        for size in (7, -8, 0, 1 << 30):
+            path = self.folder / "t.nii"
+            path.write_bytes(whole[:352] + np.int32(size).tobytes() + whole[356:])
+            reader = self.reader(path)
+            self.assertEqual(table_of(reader.GetOutput()), {})
+            self.assertRegex(warnings_of(reader)[0], f"is damaged: it has {size} bytes, and the header \\d+ for it")
 
 
 if __name__ == "__main__":
