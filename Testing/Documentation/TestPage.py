@@ -30,7 +30,8 @@ def environment(folder):
     """A home with ~/voxplex, whose programs are found, and this interpreter as python3."""
     programs = folder / "bin"
     programs.mkdir()
-    (programs / "python3").symlink_to(sys.executable)
+    (programs / "python3").write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n')  # a link would leave a virtual environment
+    (programs / "python3").chmod(0o755)
     result = {**os.environ, "HOME": str(folder), "PATH": f"{programs}:{folder / 'voxplex' / 'bin'}:{os.environ['PATH']}"}
     if "VOXPLEX_PREFIX" in os.environ:
         (folder / "voxplex").symlink_to(os.environ["VOXPLEX_PREFIX"])
