@@ -10,6 +10,7 @@
 #include "ChildProcess.h"
 #include "CommandLine.h"
 #include "MarkdownTable.h"
+#include "Quality/FrameVolumes.h"
 #include "SpaceTimeOptions.h"
 #include "SpaceTimeRun.h"
 #include "Statistics.h"
@@ -277,8 +278,7 @@ double WorstError(const std::vector<Compared>& all)
 }
 
 /**
- * A row of Scripts/measure-space-time's table. Frames where a label has less than a fifth of its
- * largest volume do not count.
+ * A row of Scripts/measure-space-time's table. Frames that CompareFrames() leaves out do not count.
  */
 void PrintRow(const SpaceTimeOptions& options, double delta, const SpaceTimeRecord& record)
 {
@@ -295,7 +295,7 @@ void PrintRow(const SpaceTimeOptions& options, double delta, const SpaceTimeReco
     for (std::size_t frame = 0; frame < fit.Frames && largest > 0.0; ++frame)
     {
       const Compared& one = fit.Volume[label][frame];
-      if (one.Image >= 0.2 * largest)
+      if (one.Image >= LeastShareOfLargest * largest)
       {
         frames.push_back(one);
       }

@@ -11,6 +11,7 @@
 #include "Writers.h"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 
 namespace voxplex::io
@@ -68,6 +69,19 @@ std::vector<ElementFace> FindElementFaces(const MeshView& view)
       "tetrahedron with its label");
   }
   return faces;
+}
+
+/** Both programs read 20 characters of a number: what is longer would lose digits, or its exponent. */
+std::string Coordinate(double value)
+{
+  std::array<char, 32> text;
+  char* const last = text.data() + text.size();
+  char* end = std::to_chars(text.data(), last, value).ptr;
+  for (int digits = 16; end - text.data() > 20; --digits)
+  {
+    end = std::to_chars(text.data(), last, value, std::chars_format::general, digits).ptr;
+  }
+  return { text.data(), end };
 }
 
 /** Data lines of a set hold at most 16 numbers. */
@@ -151,7 +165,8 @@ void WriteAbaqus(const MeshData& mesh, const std::string& path)
   for (vtkIdType i = 0; i < view.NumberOfPoints(); ++i)
   {
     const auto [x, y, z] = view.Point(i);
-    file << i + 1 << ", " << x << ", " << y << ", " << z << '\n';
+    file << i + 1 << ", " << Coordinate(x) << ", " << Coordinate(y) << ", " << Coordinate(z)
+         << '\n';
   }
   WriteElements(file, view, names);
   WriteSurfaces(file, view, names);

@@ -134,7 +134,7 @@ class ReadByMeshio(LabelledMeshTestCase):
     def test_abaqus(self):
         """meshio knows no surfaces of element faces."""
         mesh = meshio.read(self.write("mesh.inp"))
-        np.testing.assert_array_equal(mesh.points, self.points)
+        np.testing.assert_allclose(mesh.points, self.points, rtol=1e-13, atol=0)
         sets = {name: np.concatenate([block.data[members] for block, members in zip(mesh.cells, blocks)
                                       if len(members)]) for name, blocks in mesh.cell_sets.items()}
         self.assert_same_cells(sets, self.cells_by_name())

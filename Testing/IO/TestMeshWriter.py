@@ -244,6 +244,19 @@ class Formats(WriterTestCase):
         self.write(mesher, "both.ply", INTERFACES)
         self.assertEqual(self.files()["i.ply"], self.files()["both.ply"])
 
+    def test_abaqus_has_short_numbers(self):
+        """It and CalculiX read 20 characters, and of `3.479460781363741e-05` would take `3.479460781363741e-0`."""
+        mesher = self.mesher()
+        mesher.Update()
+        mesh = mesher.GetOutput()
+        points = vtk_to_numpy(mesh.GetPoints().GetData())
+        points *= np.geomspace(1e-12, 1, len(points))[:, np.newaxis] / 3
+        self.assertEqual(self.with_data("m.inp", mesh, mesher.GetOutputDataObject(1)).Write(), 1)
+        lines = self.files()["m.inp"].decode().split("*NODE\n")[1].split("\n*")[0].split("\n")
+        texts = np.array([line.split(", ")[1:] for line in lines])
+        self.assertEqual(max(map(len, texts.flat)), 20)
+        np.testing.assert_allclose(texts.astype(float), points, rtol=1e-13, atol=0)
+
     def test_boundary_without_sides(self):
         """One of an older file: all of it counts as lateral."""
         mesher = self.mesher(frames=3)
