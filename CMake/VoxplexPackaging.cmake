@@ -84,9 +84,9 @@ images into tetrahedra, time series of them into pentatopes of space-time.
 Tissues share the nodes of their interfaces, and the image's origin, spacing
 and axes are honoured.
 
-This package holds the program voxplex, the Python package voxplex, and the
-VTK modules VTK::Voxplex and VTK::VoxplexIO with their headers and CMake
-files.")
+This package holds the program voxplex, the Python package voxplex, the VTK
+modules VTK::Voxplex and VTK::VoxplexIO, and a filter for ITK, with their
+headers and CMake files.")
 set(CPACK_RESOURCE_FILE_LICENSE "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE")
 set(CPACK_PACKAGING_INSTALL_PREFIX "/usr")
 set(CPACK_STRIP_FILES ON)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkImageToPentatopeMeshFilter.h"
 
+#include "Base/NumberText.h"
 #include "Private/FrameGathering.h"
 #include "Private/Lists.h"
 #include "Private/MeshOutput.h"

@@ -17,9 +17,7 @@
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace
 {
@@ -49,12 +47,9 @@ static_assert(
 /** A size that was given as a number. */
 void CheckSize(double size, const std::string& what)
 {
-  if (!(size > 0.0) || !std::isfinite(size))
-  {
-    std::ostringstream text;
-    text << what << " is " << size << "; it must be positive and finite.";
-    throw InputError(text.str());
-  }
+  using Limits = std::numeric_limits<double>;
+  voxplex::CheckRange(
+    size, Limits::denorm_min(), Limits::max(), what.c_str(), "positive and finite");
 }
 
 /** The labels of an interface, in the order of the table: the larger first, so ANY_LABEL comes last. */
@@ -399,8 +394,7 @@ int vtkImageToSimplexMeshFilter::RequestData(
         this->Mesh(inputVector, outputVector);
       }
     },
-    "There is not enough memory for this mesh; increase {delta}, or mesh fewer labels.",
-    "Meshing failed: ");
+    voxplex::NoMemoryForMesh, voxplex::MeshingFailed);
   if (!isGathered)
   {
     this->ErrorMessage = "The input failed before it had delivered all time steps."; // if it does

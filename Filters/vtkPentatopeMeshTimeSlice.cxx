@@ -6,6 +6,7 @@
 #include "Mesh/TimeSlice.h"
 #include "Private/Execution.h"
 #include "Private/LabelledMesh.h"
+#include "Private/MeshingMessages.h"
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkCellArray.h"

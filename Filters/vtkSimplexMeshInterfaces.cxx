@@ -8,6 +8,7 @@
 #include "Private/Execution.h"
 #include "Private/LabelledMesh.h"
 #include "Private/MeshOutput.h"
+#include "Private/MeshingMessages.h"
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"

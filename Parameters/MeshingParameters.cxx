@@ -82,6 +82,7 @@ std::string Mention(UserInterface interface, const MeshingParameter& parameter)
   switch (interface)
   {
     case UserInterface::VTK:
+    case UserInterface::ITK:
       return isList ? (isAdded ? "Add" : "Set") + name + "()" : name;
     case UserInterface::CommandLine:
     case UserInterface::SlicerCommand:
@@ -196,13 +197,13 @@ std::vector<std::string> Notes(UserInterface interface, const MeshingParameter& 
 struct Term
 {
   const char* Name;
-  const char* In[6]; ///< by UserInterface; null: its users do not have it
+  const char* In[7]; ///< by UserInterface; null: its users do not have it
 };
 
 constexpr Term Terms[] = {
   { "isosurface",
     { "SetInputModeToIsosurface()", "--isovalue", nullptr, "--isosurface and --isovalue",
-      "isovalue", "'Input Mode'" } },
+      "isovalue", "'Input Mode'", "vtkImageToTetMeshFilter" } },
   { "array", { "SetInputArrayToProcess()", nullptr, nullptr, nullptr, nullptr, "'Label Array'" } },
   // Of readers.
   { "trust",
@@ -329,11 +330,15 @@ std::string NameIn(UserInterface interface, const MeshingParameter& parameter)
   }
   using P = MeshingParameter;
   static constexpr std::string P::*columns[] = { &P::Property, &P::Option, &P::Slicer, &P::Slicer,
-    &P::Python, &P::Panel }; // by UserInterface
+    &P::Python, &P::Panel, &P::Property }; // by UserInterface
   const std::string& given = parameter.*columns[static_cast<int>(interface)];
   if (interface == UserInterface::Slicer && parameter.Dimension == 4)
   {
     return "";
+  }
+  if (interface == UserInterface::ITK && parameter.Name == "threads")
+  {
+    return "NumberOfWorkUnits";
   }
   if (!given.empty())
   {

@@ -128,7 +128,8 @@ enum class UserInterface
   Slicer,        ///< facetAngle
   SlicerCommand, ///< facetangle: a flag of the module's executable
   Python,        ///< facet_angle
-  ParaView       ///< Facet Angle
+  ParaView,      ///< Facet Angle
+  ITK            ///< FacetAngle
 };
 
 /** All parameters by groups, in the order in which users see them. */

@@ -1,54 +1,63 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// An ITK pipeline feeds the meshing filter: a CT image is thresholded, its connected components become
+// A pipeline of ITK with the meshing filter at its end: a CT image is thresholded, its connected components become
 // labels, the largest first, and these are meshed where the image lies, its direction matrix included.
-// Usage: MeshITKImage IMAGE THRESHOLD DELTA OUTPUT.vtu
+// Usage: MeshITKImage IMAGE THRESHOLD DELTA OUTPUT.vtk
 
 #include "itkBinaryThresholdImageFilter.h"
 #include "itkConnectedComponentImageFilter.h"
 #include "itkImage.h"
 #include "itkImageFileReader.h"
+#include "itkLabelImageToTetrahedralMeshFilter.h"
+#include "itkMesh.h"
 #include "itkRelabelComponentImageFilter.h"
-#include "itkVTKImageExport.h"
-
-#include "vtkImageImport.h"
-#include "vtkImageToTetMeshFilter.h"
-#include "vtkNew.h"
-#include "vtkUnstructuredGrid.h"
-#include "vtkXMLUnstructuredGridWriter.h"
 
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <limits>
 
 using GreyImage = itk::Image<short, 3>;
 using LabelImage = itk::Image<unsigned short, 3>;
+using Mesh = itk::Mesh<unsigned short, 3>;
 
-/**
- * Lets VTK's pipeline ask ITK's for images, direction matrix included. Voxels are not copied: the
- * exporter must live for as long as the importer's output is used. itk::ImageToVTKImageFilter does the
- * same; it belongs to the ITK module ITKVtkGlue, which Debian's ITK comes without.
- */
-template <typename Image>
-void Connect(itk::VTKImageExport<Image>* exporter, vtkImageImport* importer)
+/** ITK's own writers have no tetrahedra: VTK's legacy format, as text. */
+void Write(const Mesh* mesh, const char* path)
 {
-  importer->SetUpdateInformationCallback(exporter->GetUpdateInformationCallback());
-  importer->SetPipelineModifiedCallback(exporter->GetPipelineModifiedCallback());
-  importer->SetWholeExtentCallback(exporter->GetWholeExtentCallback());
-  importer->SetSpacingCallback(exporter->GetSpacingCallback());
-  importer->SetOriginCallback(exporter->GetOriginCallback());
-  importer->SetDirectionCallback(exporter->GetDirectionCallback());
-  importer->SetScalarTypeCallback(exporter->GetScalarTypeCallback());
-  importer->SetNumberOfComponentsCallback(exporter->GetNumberOfComponentsCallback());
-  importer->SetPropagateUpdateExtentCallback(exporter->GetPropagateUpdateExtentCallback());
-  importer->SetUpdateDataCallback(exporter->GetUpdateDataCallback());
-  importer->SetDataExtentCallback(exporter->GetDataExtentCallback());
-  importer->SetBufferPointerCallback(exporter->GetBufferPointerCallback());
-  importer->SetCallbackUserData(exporter->GetCallbackUserData());
+  std::ofstream file(path);
+  file.exceptions(std::ios::failbit | std::ios::badbit);
+  file.precision(9);
+  file << "# vtk DataFile Version 3.0\nMeshITKImage\nASCII\nDATASET UNSTRUCTURED_GRID\n";
+  file << "POINTS " << mesh->GetNumberOfPoints() << " float\n";
+  for (const auto& point : mesh->GetPoints()->CastToSTLConstContainer())
+  {
+    file << point[0] << ' ' << point[1] << ' ' << point[2] << '\n';
+  }
+  const auto cells = mesh->GetNumberOfCells();
+  file << "CELLS " << cells << ' ' << 5 * cells << '\n';
+  for (const auto* const cell : mesh->GetCells()->CastToSTLConstContainer())
+  {
+    file << 4;
+    for (auto corner = cell->PointIdsBegin(); corner != cell->PointIdsEnd(); ++corner)
+    {
+      file << ' ' << *corner;
+    }
+    file << '\n';
+  }
+  file << "CELL_TYPES " << cells << '\n';
+  for (std::size_t i = 0; i < cells; ++i)
+  {
+    file << "10\n"; // VTK_TETRA
+  }
+  file << "CELL_DATA " << cells << "\nSCALARS Label unsigned_short\nLOOKUP_TABLE default\n";
+  for (const auto label : mesh->GetCellData()->CastToSTLConstContainer())
+  {
+    file << label << '\n';
+  }
 }
 
-int Run(const char* input, short threshold, double delta, const char* output)
+void Run(const char* input, short threshold, double delta, const char* output)
 {
   const auto reader = itk::ImageFileReader<GreyImage>::New();
   reader->SetFileName(input);
@@ -67,42 +76,34 @@ int Run(const char* input, short threshold, double delta, const char* output)
   labels->SetInput(components->GetOutput());
   labels->SetMinimumObjectSize(100); // voxels
 
-  const auto exporter = itk::VTKImageExport<LabelImage>::New();
-  exporter->SetInput(labels->GetOutput());
-  vtkNew<vtkImageImport> importer;
-  Connect(exporter.GetPointer(), importer);
-
-  vtkNew<vtkImageToTetMeshFilter> mesher;
-  mesher->SetInputConnection(importer->GetOutputPort());
-  mesher->SetDelta(delta);
-  mesher->Update();
-  if (!mesher->GetErrorMessage().empty()) // vtkErrorMacro has shown it
-  {
-    return EXIT_FAILURE;
-  }
+  const auto mesher = itk::LabelImageToTetrahedralMeshFilter<LabelImage, Mesh>::New();
+  mesher->SetInput(labels->GetOutput());
+  mesher->SetDelta(delta); // sampling distance of interfaces, mm
+  mesher->Update();        // the whole pipeline
   std::cout << labels->GetNumberOfObjects() << " components, "
             << mesher->GetOutput()->GetNumberOfCells() << " tetrahedra\n";
-
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetInputConnection(mesher->GetOutputPort());
-  writer->SetFileName(output);
-  return writer->Write() == 1 ? EXIT_SUCCESS : EXIT_FAILURE;
+  Write(mesher->GetOutput(), output);
 }
 
 int main(int argc, char* argv[])
 {
   if (argc != 5)
   {
-    std::cerr << "Usage: " << argv[0] << " IMAGE THRESHOLD DELTA OUTPUT.vtu\n";
+    std::cerr << "Usage: " << argv[0] << " IMAGE THRESHOLD DELTA OUTPUT.vtk\n";
     return EXIT_FAILURE;
   }
   try
   {
-    return Run(argv[1], static_cast<short>(std::atoi(argv[2])), std::atof(argv[3]), argv[4]);
+    Run(argv[1], static_cast<short>(std::atoi(argv[2])), std::atof(argv[3]), argv[4]);
+    return EXIT_SUCCESS;
   }
-  catch (const itk::ExceptionObject& error) // from ITK's pipeline, through VTK's
+  catch (const itk::ExceptionObject& error) // of a filter
   {
     std::cerr << argv[0] << ": " << error.GetDescription() << "\n";
-    return EXIT_FAILURE;
   }
+  catch (const std::exception& error) // of the file that is written
+  {
+    std::cerr << argv[0] << ": " << argv[4] << ": " << error.what() << "\n";
+  }
+  return EXIT_FAILURE;
 }

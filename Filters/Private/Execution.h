@@ -7,7 +7,6 @@
 #ifndef voxplex_Private_Execution_h
 #define voxplex_Private_Execution_h
 
-#include "Base/Error.h"
 #include "Private/SmpThreads.h"
 
 #include "vtkAlgorithm.h"
@@ -15,11 +14,6 @@
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkVersion.h"
-
-#include <exception>
-#include <new>
-#include <string>
-#include <system_error>
 
 /**
  * For ProcessRequest(): what stopped the last execution does not stop the next one. This request comes before the first
@@ -75,47 +69,6 @@ inline void RequestWholeInputs(vtkInformationVector** inputs, int ports)
     input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
     input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   }
-}
-
-/**
- * Calls work().
- * @param outOfMemory what to say if there is not enough of it
- * @param failed begins what to say of exceptions that are no Error
- * @return the message for the user, for InTermsOf(); empty if nothing was thrown
- */
-template <typename Work>
-std::string CatchFailure(Work&& work, const char* outOfMemory, const std::string& failed)
-{
-  try
-  {
-    work();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  catch (const std::bad_alloc&)
-  {
-    return outOfMemory;
-  }
-  catch (const std::system_error& error)
-  {
-    const bool isThread = error.code() == std::errc::resource_unavailable_try_again;
-    return failed +
-      (isThread
-          ? "a thread cannot be started; raise the limits of processes and memory (ulimit -u, "
-            "-v), or lower {threads}."
-          : error.what());
-  }
-  catch (const std::exception& error)
-  {
-    return failed + error.what();
-  }
-  catch (...) // of a size function; nothing else throws such things
-  {
-    return failed + "the size function threw something that is not a std::exception.";
-  }
-  return {};
 }
 
 } // namespace voxplex

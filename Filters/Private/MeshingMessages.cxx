@@ -2,13 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/MeshingMessages.h"
 
-#include "Base/Error.h"
 #include "Base/NumberText.h"
 #include "MeshingParameters.h"
-
-#include "vtkDataArray.h"
-#include "vtkFieldData.h"
-#include "vtkStringArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,35 +89,25 @@ std::string ListLabels(std::span<const std::int64_t> labels)
   return ListSome(labels, [](std::int64_t label) { return std::to_string(label); });
 }
 
-void CheckSizedLabels(std::span<const std::int64_t> sized, const std::string& method, bool selected,
+void CheckSizedLabel(std::int64_t label, const std::string& method, bool selected,
   std::span<const std::int64_t> labels)
 {
-  for (const std::int64_t label : sized)
+  if (!std::binary_search(labels.begin(), labels.end(), label))
   {
-    if (std::binary_search(labels.begin(), labels.end(), label))
-    {
-      continue;
-    }
-    const std::string where = selected ? "is not among the labels to mesh; these are "
-                                       : "does not occur in the image; its labels are ";
     throw InputError(method + " gives a size to label " + std::to_string(label) + ", which " +
-      where + ListLabels(labels) + ".");
+      (selected ? "is not among the labels to mesh; these are "
+                : "does not occur in the image; its labels are ") +
+      ListLabels(labels) + ".");
   }
 }
 
-std::map<std::int64_t, std::string> LabelNames(vtkFieldData* fields)
+void CheckNotEmpty(const MeshingStatistics& run)
 {
-  std::map<std::int64_t, std::string> names;
-  vtkDataArray* const values = fields->GetArray("LabelValues");
-  auto* const texts = vtkStringArray::SafeDownCast(fields->GetAbstractArray("LabelNames"));
-  for (vtkIdType i = 0; values && texts && i < values->GetNumberOfTuples(); ++i)
+  if (run.Elements == 0)
   {
-    if (i < texts->GetNumberOfValues() && !texts->GetValue(i).empty())
-    {
-      names[static_cast<std::int64_t>(values->GetComponent(i, 0))] = texts->GetValue(i);
-    }
+    throw InputError("The mesh is empty, because every label is too small for a {delta} of " +
+      NumberText(run.Delta) + "; use a smaller one.");
   }
-  return names;
 }
 
 std::vector<std::string> WarningsOf(const MeshingStatistics& run,

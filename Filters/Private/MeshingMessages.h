@@ -2,23 +2,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MeshingMessages.h
- * @brief What the meshing filters refuse, and what they warn of, for InTermsOf() (MeshingParameters.h).
+ * @brief Failures, refusals and warnings of filters, for InTermsOf() (MeshingParameters.h); without VTK.
  */
 #ifndef voxplex_MeshingMessages_h
 #define voxplex_MeshingMessages_h
 
+#include "Base/Error.h"
 #include "Mesher/MeshingStatistics.h"
 
 #include <cstdint>
+#include <exception>
 #include <map>
+#include <new>
 #include <span>
 #include <string>
+#include <system_error>
 #include <vector>
-
-class vtkFieldData;
 
 namespace voxplex
 {
+
+/**
+ * Calls work().
+ * @param outOfMemory what to say if there is not enough of it
+ * @param failed begins what to say of exceptions that are no Error
+ * @return the message for the user, for InTermsOf(); empty if nothing was thrown
+ */
+template <typename Work>
+std::string CatchFailure(Work&& work, const char* outOfMemory, const std::string& failed)
+{
+  try
+  {
+    work();
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  catch (const std::bad_alloc&)
+  {
+    return outOfMemory;
+  }
+  catch (const std::system_error& error)
+  {
+    const bool isThread = error.code() == std::errc::resource_unavailable_try_again;
+    return failed +
+      (isThread
+          ? "a thread cannot be started; raise the limits of processes and memory (ulimit -u, "
+            "-v), or lower {threads}."
+          : error.what());
+  }
+  catch (const std::exception& error)
+  {
+    return failed + error.what();
+  }
+  catch (...) // of a size function; nothing else throws such things
+  {
+    return failed + "the size function threw something that is not a std::exception.";
+  }
+  return {};
+}
+
+///@{
+/** What CatchFailure() is told of meshing. */
+inline constexpr const char* NoMemoryForMesh =
+  "There is not enough memory for this mesh; increase {delta}, or mesh fewer labels.";
+inline constexpr const char* MeshingFailed = "Meshing failed: ";
+///@}
 
 /** Throws InputError unless low <= value <= high; `must` says what it must be. */
 void CheckRange(double value, double low, double high, const char* name, const char* must);
@@ -38,11 +88,11 @@ std::string ListLabels(std::span<const std::int64_t> labels);
  * @param method by which it was given
  * @param selected whether a part of the image's labels is meshed
  */
-void CheckSizedLabels(std::span<const std::int64_t> sized, const std::string& method, bool selected,
+void CheckSizedLabel(std::int64_t label, const std::string& method, bool selected,
   std::span<const std::int64_t> labels);
 
-/** The names that an image's field data (arrays LabelValues, LabelNames) gives to labels. */
-std::map<std::int64_t, std::string> LabelNames(vtkFieldData* fields);
+/** Throws InputError if nothing was meshed. */
+void CheckNotEmpty(const MeshingStatistics& run);
 
 /**
  * How the mesh differs from what was asked for, a sentence or two each.

@@ -8,7 +8,6 @@
 #define voxplex_SimplexMeshRun_h
 
 #include "Base/Error.h"
-#include "Base/NumberText.h"
 #include "Base/Stopwatch.h"
 #include "Mesher/ImageMesher.h"
 #include "Private/ChosenArray.h"
@@ -183,12 +182,7 @@ public:
     }
 
     this->Statistics() = mesher.Statistics();
-    if (mesh.Simplices.empty())
-    {
-      throw voxplex::InputError(
-        "The mesh is empty, because every label is too small for a {delta} of " +
-        voxplex::NumberText(this->Statistics().Delta) + "; use a smaller one.");
-    }
+    voxplex::CheckNotEmpty(this->Statistics());
     this->Statistics().Times.LabelField += readingTime;
     this->WarnOfSizes(mesh);
     return true;
@@ -224,24 +218,20 @@ private:
     const auto labels = image.Values().subspan(1); // without background
     const Internals& filter = *this->Filter->Private;
     const bool selected = !filter.Labels.empty() || !filter.ExcludedLabels.empty();
-    std::vector<std::int64_t> sized;
     for (const auto& [label, size] : filter.LabelSizes)
     {
-      sized.push_back(label);
+      voxplex::CheckSizedLabel(label, "{label-size}", selected, labels);
     }
-    voxplex::CheckSizedLabels(sized, "{label-size}", selected, labels);
-    sized.clear();
     for (const auto& [interface, size] : filter.InterfaceSizes)
     {
       for (const std::int64_t label : { interface.first, interface.second })
       {
         if (label > 0) // background and ANY_LABEL are always there
         {
-          sized.push_back(label);
+          voxplex::CheckSizedLabel(label, "{interface-size}", selected, labels);
         }
       }
     }
-    voxplex::CheckSizedLabels(sized, "{interface-size}", selected, labels);
   }
 
   /** The fraction of the progress at the kernel's end; the rest is the copy into VTK data. */

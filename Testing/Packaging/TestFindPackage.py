@@ -16,6 +16,8 @@ from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parent / "FindPackage"
 HAVE_IO = os.environ["VOXPLEX_HAVE_IO"] == "1"
+HAVE_ITK = os.environ["VOXPLEX_HAVE_ITK"] == "1"
+ITK = ["Voxplex::ITK"] if HAVE_ITK else []
 VERSION = os.environ["VOXPLEX_VERSION"]
 TREES = os.environ["VOXPLEX_TREES"].split("|")
 MAJOR, MINOR, _ = map(int, VERSION.split("."))
@@ -41,7 +43,7 @@ class FindPackage(unittest.TestCase):
             for version in ("", f"{MAJOR}.{MINOR}", VERSION):
                 found, targets, because, folder = self.configure(tree, f"-DVERSION={version}")
                 self.assertTrue(found, because)
-                self.assertEqual(targets, ["VTK::Voxplex"] + (["VTK::VoxplexIO"] if HAVE_IO else []))
+                self.assertEqual(targets, ["VTK::Voxplex"] + (["VTK::VoxplexIO"] if HAVE_IO else []) + ITK)
                 self.assertTrue(folder.startswith(tree), folder)
 
     def test_components(self):
@@ -55,6 +57,19 @@ class FindPackage(unittest.TestCase):
             self.assertFalse(found)
             self.assertEqual(targets, [])
             self.assertIn("has no component Nonsense", because)
+
+    def test_itk(self):
+        """The component ITK alone does without VTK."""
+        for tree in TREES:
+            without_vtk = "-DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON"
+            found, targets, because, _ = self.configure(tree, "-DCOMPONENTS=COMPONENTS;ITK", without_vtk)
+            self.assertEqual((found, targets), (HAVE_ITK, ITK))
+            if not HAVE_ITK:
+                self.assertIn("without the component ITK", because)
+            found, targets, because, _ = self.configure(tree, "-DCOMPONENTS=OPTIONAL_COMPONENTS;ITK")
+            self.assertTrue(found, because)
+            self.assertIn("VTK::Voxplex", targets)
+            self.assertFalse(self.configure(tree, "-DCOMPONENTS=COMPONENTS;ITK;IO", without_vtk)[0])
 
     def test_other_versions(self):
         for tree in TREES:

@@ -20,6 +20,7 @@ LIBRARIES = TREE / os.environ["VOXPLEX_LIBDIR"]
 PYTHON = TREE / os.environ["VOXPLEX_PYTHON_DESTINATION"]
 VERSION = os.environ["VOXPLEX_VERSION"]
 MINOR = VERSION.rsplit(".", 1)[0]
+HAVE_ITK = os.environ["VOXPLEX_HAVE_ITK"] == "1"
 MODULES = ["Voxplex"] + (["VoxplexIO"] if os.environ["VOXPLEX_HAVE_IO"] == "1" else [])
 
 needs_python = unittest.skipUnless(os.environ["VOXPLEX_HAVE_PYTHON"] == "1", "the Python package was not built")
@@ -49,6 +50,9 @@ class Contents(unittest.TestCase):
             if os.environ["VOXPLEX_HAVE_PYTHON"] == "1":
                 expected |= {f"{lib}/vtk/hierarchy/Voxplex/vtk{module}-hierarchy.txt",
                              f"{os.environ['VOXPLEX_PYTHON_DESTINATION']}/voxplex/vtk{module}.so"}
+        if HAVE_ITK:
+            expected |= {f"{lib}/libVoxplexITK.so", f"{lib}/libVoxplexITK.so.{MINOR}", f"{lib}/libVoxplexITK.so.{VERSION}",
+                         f"{lib}/cmake/voxplex-{VERSION}/VoxplexITK-targets.cmake"}
         expected |= {f"share/doc/voxplex/{name}" for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "Documentation/FirstMesh.md")}
         self.assertEqual(expected - files, set())
 
@@ -60,6 +64,9 @@ class Contents(unittest.TestCase):
                   for path in (Path(os.environ["VOXPLEX_SOURCE"]) / part).glob("vtk*.h")
                   if part == "Filters" or "VoxplexIO" in MODULES}
         generated = {f"{folder}/vtk{module}Module.h" for module in MODULES}
+        if HAVE_ITK:
+            public |= {f"{folder}/{path.name}" for path in (Path(os.environ["VOXPLEX_SOURCE"]) / "ITK").glob("*.h*")}
+            generated.add(f"{folder}/voxplexITKExport.h")
         self.assertGreater(len(public), 4)
         self.assertEqual(names - {"VoxplexPython.h"}, public | generated)  # VTK 9.3 writes it for the wrapped classes
 
@@ -96,6 +103,13 @@ class Use(unittest.TestCase):
         self.assertNotIn("not found", linked)
         found = re.search(r"libvtkVoxplex\.so\S* => (\S+)", linked)
         self.assertEqual(Path(found.group(1)).resolve().parent, LIBRARIES)
+
+    @unittest.skipUnless(HAVE_ITK, "the filter for ITK was not built")
+    def test_itk(self):
+        """The library for ITK works with any ITK, and without VTK."""
+        linked = run("readelf", "-d", LIBRARIES / "libVoxplexITK.so").stdout
+        self.assertIn("[libVoxplexITK.so." + MINOR + "]", linked)
+        self.assertNotRegex(linked, r"NEEDED.*\[lib(vtk|ITK|itk)")
 
     @needs_python
     def test_python(self):

@@ -36,6 +36,8 @@ TEST(Parameters, NamesOfParameters)
     In(UserInterface::Python, message), "facet_angle, label_sizes, force=True, AddFrameTime()");
   EXPECT_EQ(In(UserInterface::ParaView, message),
     "'Facet Angle', 'Label Table', 'Force', 'Times of Frames'");
+  EXPECT_EQ(In(UserInterface::ITK, "{facet-angle}, {labels}, {threads}, {isosurface}"),
+    "FacetAngle, AddLabel(), NumberOfWorkUnits, vtkImageToTetMeshFilter");
 }
 
 TEST(Parameters, WhatOnlySomeUsersHave)
