@@ -71,9 +71,14 @@ std::string NameOfOption(UserInterface interface, std::string option)
     const std::string name = NameIn(interface, parameter);
     if (NameIn(UserInterface::CommandLine, parameter) == option && !name.empty())
     {
-      return parameter.IsOnByDefault() ? name + "=False"
-                                       : InTermsOf(interface, "{" + parameter.Name + "}");
+      return interface == UserInterface::Python && parameter.IsOnByDefault()
+        ? name + "=False"
+        : InTermsOf(interface, "{" + parameter.Name + "}");
     }
+  }
+  if (interface == UserInterface::Slicer) // a file
+  {
+    return "--" + option;
   }
   if (option == "frame-times")
   {
@@ -309,8 +314,9 @@ io::Space ParseSpace(const std::string& option, const std::string& text)
 
 UserInterface ParseWords(const std::string& option, const std::string& text)
 {
-  return ParseWord(option, text, { "shell", "python" }) == 0 ? UserInterface::CommandLine
-                                                             : UserInterface::Python;
+  // In the order of the enumeration.
+  return static_cast<UserInterface>(static_cast<int>(UserInterface::CommandLine) +
+    ParseWord(option, text, { "shell", "slicer", "python" }));
 }
 
 std::string NameOptions(UserInterface interface, const std::string& message)

@@ -123,12 +123,11 @@ struct MeshingParameter
 /** The interfaces in which parameters have names. */
 enum class UserInterface
 {
-  VTK,           ///< FacetAngle
-  CommandLine,   ///< facet-angle, no-optimise
-  Slicer,        ///< facetAngle
-  SlicerCommand, ///< facetangle: a flag of the module's executable
-  Python,        ///< facet_angle
-  ParaView       ///< Facet Angle
+  VTK,         ///< FacetAngle
+  CommandLine, ///< facet-angle, no-optimise
+  Slicer,      ///< facetAngle
+  Python,      ///< facet_angle
+  ParaView     ///< Facet Angle
 };
 
 /** All parameters by groups, in the order in which users see them. */
