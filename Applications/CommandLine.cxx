@@ -335,14 +335,17 @@ Parameters ToParameters(Verb verb, const po::variables_map& values)
 
 UserInterface WordsOf(int argc, const char* const* argv)
 {
-  constexpr std::string_view option = "--messages";
+  constexpr std::string_view option = "--messages=";
   for (int i = 1; i < argc; ++i)
   {
-    const std::string_view argument = argv[i];
-    if (argument == std::string(option) + "=python" ||
-      (argument == option && i + 1 < argc && std::string_view(argv[i + 1]) == "python"))
+    const std::string argument = std::string(argv[i]) + '=' + (i + 1 < argc ? argv[i + 1] : "");
+    if (argument.starts_with(option))
     {
-      return UserInterface::Python;
+      const std::string word =
+        argument.substr(option.size(), argument.find('=', option.size()) - option.size());
+      return word == "python" ? UserInterface::Python
+        : word == "slicer"    ? UserInterface::Slicer
+                              : UserInterface::CommandLine;
     }
   }
   return UserInterface::CommandLine;

@@ -5,21 +5,14 @@
 #include "EditDistance.h"
 #include "Errors.h"
 #include "OptionValues.h"
+#include "Text.h"
 
 #include <algorithm>
-#include <cctype>
 
 namespace voxplex::cli
 {
 namespace
 {
-
-std::string LowerCase(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 /** The labels with a name for which the predicate holds. */
 template <typename TPredicate>
@@ -43,9 +36,9 @@ std::vector<std::int64_t> LabelsCalled(const std::string& name, const io::LabelT
     LabelsWhere(table, [&name](const std::string& other) { return other == name; });
   if (labels.empty())
   {
-    const std::string lower = LowerCase(name);
-    labels =
-      LabelsWhere(table, [&lower](const std::string& other) { return LowerCase(other) == lower; });
+    const std::string lower = io::LowerCase(name);
+    labels = LabelsWhere(
+      table, [&lower](const std::string& other) { return io::LowerCase(other) == lower; });
   }
   return labels;
 }
@@ -54,11 +47,11 @@ std::vector<std::int64_t> LabelsCalled(const std::string& name, const io::LabelT
 std::string Suggest(const std::string& name, const io::LabelTable& table)
 {
   constexpr std::size_t most = 5;
-  const std::string lower = LowerCase(name);
+  const std::string lower = io::LowerCase(name);
   std::multimap<std::size_t, std::string> near;
   for (const auto& [label, entry] : table.Entries)
   {
-    const std::string other = LowerCase(entry.Name);
+    const std::string other = io::LowerCase(entry.Name);
     const bool isPart = other.find(lower) != std::string::npos;
     const std::size_t distance = isPart ? 1 : EditDistance(lower, other);
     if (distance <= std::max<std::size_t>(2, lower.size() / 3))

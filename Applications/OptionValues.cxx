@@ -4,13 +4,13 @@
 
 #include "Base/NumberText.h"
 #include "Errors.h"
+#include "Text.h"
 
 #include <vtkMath.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 
 namespace voxplex::cli
@@ -20,26 +20,9 @@ namespace
 
 constexpr ParameterRange Lengths{ .Low = 0.0, .LowIsOutside = true };
 
-/** The whole text as a number, or nothing. */
-template <typename T>
-std::optional<T> ToNumber(std::string_view text)
-{
-  if (!text.empty() && text.front() == '+')
-  {
-    text.remove_prefix(1);
-  }
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-  {
-    return std::nullopt;
-  }
-  return value;
-}
-
 double ParseFinite(const std::string& option, std::string_view text)
 {
-  const std::optional<double> value = ToNumber<double>(text);
+  const std::optional<double> value = io::ToNumber<double>(text);
   if (!value)
   {
     throw UsageError("--" + option + ": " + Quoted(text) + " is not a number");
@@ -71,9 +54,14 @@ std::string NameOfOption(UserInterface interface, std::string option)
     const std::string name = NameIn(interface, parameter);
     if (NameIn(UserInterface::CommandLine, parameter) == option && !name.empty())
     {
-      return parameter.IsOnByDefault() ? name + "=False"
-                                       : InTermsOf(interface, "{" + parameter.Name + "}");
+      return interface == UserInterface::Python && parameter.IsOnByDefault()
+        ? name + "=False"
+        : InTermsOf(interface, "{" + parameter.Name + "}");
     }
+  }
+  if (interface == UserInterface::Slicer) // a file
+  {
+    return "--" + option;
   }
   if (option == "frame-times")
   {
@@ -111,8 +99,8 @@ double ParseReal(const std::string& option, std::string_view text, const Paramet
 
 std::optional<std::int64_t> ParseLabelNumber(const std::string& option, std::string_view text)
 {
-  const std::optional<std::int64_t> label = ToNumber<std::int64_t>(text);
-  const bool isNumber = label || text.empty() || ToNumber<double>(text);
+  const std::optional<std::int64_t> label = io::ToNumber<std::int64_t>(text);
+  const bool isNumber = label || text.empty() || io::ToNumber<double>(text);
   if (isNumber && (!label || *label <= 0))
   {
     throw UsageError("--" + option + ": " + Quoted(text) +
@@ -246,7 +234,7 @@ std::uint64_t ParseBytes(const std::string& option, const std::string& text)
       digits.remove_suffix(1);
     }
   }
-  const std::optional<double> value = ToNumber<double>(digits);
+  const std::optional<double> value = io::ToNumber<double>(digits);
   if (!value || !(*value * scale >= 1.0) || *value * scale > 1e18)
   {
     throw UsageError(
@@ -258,10 +246,7 @@ std::uint64_t ParseBytes(const std::string& option, const std::string& text)
 int ParseWord(
   const std::string& option, const std::string& text, const std::vector<std::string>& words)
 {
-  std::string word = text;
-  std::transform(word.begin(), word.end(), word.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto found = std::find(words.begin(), words.end(), word);
+  const auto found = std::find(words.begin(), words.end(), io::LowerCase(text));
   if (found != words.end())
   {
     return static_cast<int>(found - words.begin());
@@ -293,7 +278,7 @@ double ParseParameter(const std::string& option, const std::string& text,
 
 int ParseWhole(const std::string& option, const std::string& text, int low, int high)
 {
-  const std::optional<int> value = ToNumber<int>(text);
+  const std::optional<int> value = io::ToNumber<int>(text);
   if (!value || *value < low || *value > high)
   {
     throw UsageError("--" + option + ": must be a whole number from " + std::to_string(low) +
@@ -309,8 +294,9 @@ io::Space ParseSpace(const std::string& option, const std::string& text)
 
 UserInterface ParseWords(const std::string& option, const std::string& text)
 {
-  return ParseWord(option, text, { "shell", "python" }) == 0 ? UserInterface::CommandLine
-                                                             : UserInterface::Python;
+  // In the order of the enumeration.
+  return static_cast<UserInterface>(static_cast<int>(UserInterface::CommandLine) +
+    ParseWord(option, text, { "shell", "slicer", "python" }));
 }
 
 std::string NameOptions(UserInterface interface, const std::string& message)

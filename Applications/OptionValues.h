@@ -72,7 +72,7 @@ double ParseParameter(const std::string& option, const std::string& text,
 
 io::Space ParseSpace(const std::string& option, const std::string& text);
 
-/** Whose words errors and warnings have: "shell" or "python". */
+/** Whose words errors and warnings have: "shell", "slicer" or "python". */
 UserInterface ParseWords(const std::string& option, const std::string& text);
 
 /** A message that names options, "--facet-angle", with the names that an interface has for them. */

@@ -149,9 +149,9 @@ const std::vector<OwnOption>& OwnOptions()
       "show a progress bar; if standard error is no terminal, print a line for each new "
       "percent, such as '37 % Meshing'",
       ParameterGroup::Running },
-    { "messages", "shell|python", All,
+    { "messages", "shell|slicer|python", All,
       "for programs that start this one: the names that errors and warnings have for options "
-      "(default shell)",
+      "(default shell); with slicer, --progress is that of 3D Slicer's modules",
       ParameterGroup::Running },
     { "help", "", All, "print this text", ParameterGroup::Running },
     { "version", "", All, "print the version", ParameterGroup::Running },

@@ -7,10 +7,8 @@
 #include "WholeFiles.h"
 
 #include <vtkDataObject.h>
-#include <vtkImageToSimplexMeshFilter.h>
 #include <vtkNew.h>
 #include <vtkSimplexMeshWriter.h>
-#include <vtkUnstructuredGrid.h>
 
 namespace voxplex::cli
 {
@@ -69,15 +67,6 @@ void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
   {
     throw RunError(writer->GetErrorMessage());
   }
-}
-
-void WriteMeshFiles(vtkImageToSimplexMeshFilter* filter, const std::string& mesh,
-  const std::string& interfaces, const io::WholeFiles& files)
-{
-  using Writer = vtkSimplexMeshWriter;
-  vtkDataObject* const boundary = filter->GetOutputDataObject(1);
-  WriteMeshFile(filter->GetOutput(), boundary, Writer::CONTENT_MESH, mesh, files);
-  WriteMeshFile(filter->GetOutput(), boundary, Writer::CONTENT_INTERFACES, interfaces, files);
 }
 
 void CommitFiles(io::WholeFiles& files)

@@ -12,7 +12,6 @@
 #include <string>
 
 class vtkDataObject;
-class vtkImageToSimplexMeshFilter;
 
 namespace voxplex::io
 {
@@ -41,10 +40,6 @@ void AnnounceMesh(io::WholeFiles& files, const std::string& path);
  */
 void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
   const std::string& path, const io::WholeFiles& files, int slab = -1, bool compress = true);
-
-/** Writes the mesh of a filter, and its interfaces. */
-void WriteMeshFiles(vtkImageToSimplexMeshFilter* filter, const std::string& mesh,
-  const std::string& interfaces, const io::WholeFiles& files);
 
 /** Moves all files to their places. @throws io::OutputError */
 void CommitFiles(io::WholeFiles& files);

@@ -32,8 +32,9 @@ bool IsTerminal()
 
 } // namespace
 
-ProgressBar::ProgressBar(bool wanted)
-  : IsBar(wanted && IsTerminal())
+ProgressBar::ProgressBar(bool wanted, bool isForSlicer)
+  : IsElements(wanted && isForSlicer)
+  , IsBar(wanted && !isForSlicer && IsTerminal())
   , IsLines(wanted && !this->IsBar)
 {
 }
@@ -45,6 +46,18 @@ ProgressBar::~ProgressBar()
     std::fputs("\r\033[K", stderr);
     std::fflush(stderr);
   }
+  if (this->IsElements && this->LastPercent >= 0)
+  {
+    std::printf(
+      "<filter-end>\n<filter-name>%s</filter-name>\n<filter-time>%g</filter-time>\n</filter-end>\n",
+      this->LastStep.c_str(), this->Seconds());
+    std::fflush(stdout);
+  }
+}
+
+double ProgressBar::Seconds() const
+{
+  return std::chrono::duration<double>(Clock::now() - this->Start).count();
 }
 
 void ProgressBar::Show(double fraction, const std::string& step)
@@ -56,7 +69,11 @@ void ProgressBar::Show(double fraction, const std::string& step)
   const int percent = static_cast<int>(100.0 * fraction);
   if (this->IsBar && !(isSoon && step == this->LastStep))
   {
-    this->Draw(fraction, step, now);
+    this->Draw(fraction, step);
+  }
+  else if (this->IsElements && percent != this->LastPercent)
+  {
+    this->WriteElement(fraction, step);
   }
   else if (this->IsLines && percent != this->LastPercent)
   {
@@ -72,13 +89,24 @@ void ProgressBar::Show(double fraction, const std::string& step)
   this->LastPercent = percent;
 }
 
-void ProgressBar::Draw(double fraction, const std::string& step, Clock::time_point now)
+void ProgressBar::Draw(double fraction, const std::string& step)
 {
   constexpr int width = 30;
   const int filled = static_cast<int>(std::lround(fraction * width));
-  const double seconds = std::chrono::duration<double>(now - this->Start).count();
   std::fprintf(stderr, "\r[%s%s] %3.0f %%  %.0f s  %s\033[K", std::string(filled, '=').c_str(),
-    std::string(width - filled, ' ').c_str(), 100.0 * fraction, seconds, step.c_str());
+    std::string(width - filled, ' ').c_str(), 100.0 * fraction, this->Seconds(), step.c_str());
+}
+
+void ProgressBar::WriteElement(double fraction, const std::string& step) const
+{
+  if (this->LastPercent < 0)
+  {
+    std::printf("<filter-start>\n<filter-name>%s</filter-name>\n<filter-comment> \"%s\" "
+                "</filter-comment>\n</filter-start>\n",
+      step.c_str(), step.c_str());
+  }
+  std::printf("<filter-progress>%g</filter-progress>\n", fraction);
+  std::fflush(stdout);
 }
 
 } // namespace voxplex::cli

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ProgressBar.h
- * @brief How much is done, on standard error: a bar in a terminal, lines for other programs.
+ * @brief How much is done, on standard error: a bar in a terminal, lines for other programs. For 3D Slicer on
+ * standard output, in the elements of its Execution Model.
  */
 #ifndef voxplex_cli_ProgressBar_h
 #define voxplex_cli_ProgressBar_h
@@ -17,8 +18,8 @@ class ProgressBar
 {
 public:
   /** Shows nothing if not wanted. */
-  explicit ProgressBar(bool wanted);
-  /** Wipes the bar. */
+  ProgressBar(bool wanted, bool isForSlicer);
+  /** Wipes the bar, or ends the element. */
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -33,8 +34,11 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  void Draw(double fraction, const std::string& step, Clock::time_point now);
+  double Seconds() const;
+  void Draw(double fraction, const std::string& step);
+  void WriteElement(double fraction, const std::string& step) const;
 
+  const bool IsElements;
   const bool IsBar;
   const bool IsLines;
   Clock::time_point Start = Clock::now();

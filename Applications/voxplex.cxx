@@ -13,6 +13,7 @@
 #include "OutputFiles.h"
 #include "ParameterChecks.h"
 #include "ProcessMemory.h"
+#include "Program.h"
 #include "ProgressBar.h"
 #include "SpaceTimeFiles.h"
 #include "StatisticsReport.h"
@@ -239,7 +240,7 @@ auto CompleteOrExit(const Parameters& p, Work&& work)
   decltype(work(ProgressFunction())) result;
   {
     const Interruption::CancellableStep step;
-    ProgressBar bar(p.Progress);
+    ProgressBar bar(p.Progress, p.Words == UserInterface::Slicer);
     result = work(
       [&bar](double fraction, const std::string& text)
       {
@@ -616,8 +617,11 @@ void Run(const Parameters& p)
             << (p.Quality ? SummarizeMeasurement(report) : "") << repair.Text << std::flush;
 }
 
-int Main(int argc, const char* const* argv)
+} // namespace
+
+int RunProgram(int argc, const char* const* argv)
 {
+  KeepFreedMemory();
   Interruption::Install();
   SilenceVTK();
   const UserInterface words = WordsOf(argc, argv);
@@ -658,11 +662,4 @@ int Main(int argc, const char* const* argv)
   return ExitFailure;
 }
 
-} // namespace
 } // namespace voxplex::cli
-
-int main(int argc, char* argv[])
-{
-  voxplex::cli::KeepFreedMemory();
-  return voxplex::cli::Main(argc, argv);
-}

@@ -40,7 +40,7 @@ static_assert(
   Filter::HIERARCHICAL_WORK_STEALING == static_cast<int>(voxplex::BalancePolicy::Hierarchical));
 static_assert(
   Filter::VOCABULARY_COMMAND_LINE == static_cast<int>(voxplex::UserInterface::CommandLine) &&
-  Filter::VOCABULARY_SLICER == static_cast<int>(voxplex::UserInterface::SlicerCommand) &&
+  Filter::VOCABULARY_SLICER == static_cast<int>(voxplex::UserInterface::Slicer) &&
   Filter::VOCABULARY_PYTHON == static_cast<int>(voxplex::UserInterface::Python) &&
   Filter::VOCABULARY_PARAVIEW == static_cast<int>(voxplex::UserInterface::ParaView));
 

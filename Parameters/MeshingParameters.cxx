@@ -85,7 +85,6 @@ std::string Mention(UserInterface interface, const MeshingParameter& parameter)
     case UserInterface::ITK:
       return isList ? (isAdded ? "Add" : "Set") + name + "()" : name;
     case UserInterface::CommandLine:
-    case UserInterface::SlicerCommand:
       return "--" + name;
     case UserInterface::Slicer:
       return LabelOf(parameter);
@@ -197,29 +196,29 @@ std::vector<std::string> Notes(UserInterface interface, const MeshingParameter& 
 struct Term
 {
   const char* Name;
-  const char* In[7]; ///< by UserInterface; null: its users do not have it
+  const char* In[6]; ///< by UserInterface; null: its users do not have it
 };
 
 constexpr Term Terms[] = {
   { "isosurface",
-    { "SetInputModeToIsosurface()", "--isovalue", nullptr, "--isosurface and --isovalue",
-      "isovalue", "'Input Mode'", "vtkImageToTetMeshFilter" } },
-  { "array", { "SetInputArrayToProcess()", nullptr, nullptr, nullptr, nullptr, "'Label Array'" } },
+    { "SetInputModeToIsosurface()", "--isovalue", "Isovalue", "isovalue", "'Input Mode'",
+      "vtkImageToTetMeshFilter" } },
+  { "array", { "SetInputArrayToProcess()", nullptr, nullptr, nullptr, "'Label Array'" } },
   // Of readers.
   { "trust",
-    { ", or use SetDataFilesAnywhere() if you trust the header", nullptr, nullptr,
+    { ", or use SetDataFilesAnywhere() if you trust the header", nullptr,
       ", or save the image as one file" } },
   { "anywhere",
-    { "SetDataFilesAnywhere()", "--data-files-anywhere", nullptr, nullptr,
+    { "SetDataFilesAnywhere()", "--data-files-anywhere", nullptr,
       "read_segmentation(..., data_files_anywhere=True)" } },
   { "resample",
-    { "ResampleMasksOn()", "--resample-masks", nullptr, nullptr,
+    { "ResampleMasksOn()", "--resample-masks", nullptr,
       "read_segmentation(..., resample_masks=True)" } },
-  { "series", { "SetSeriesUID()", "--series", nullptr, nullptr, "series_uid" } },
-  { "spacing", { "SetSpacing()", "--spacing", nullptr, "3D Slicer's module Volumes", "spacing=" } },
-  { "origin", { "SetOrigin()", "--origin", nullptr, nullptr, "origin=" } },
-  { "direction", { "SetDirection()", "--direction", nullptr, nullptr, "direction=" } },
-  { "weight", { "SetTimeScale()", "--time-scale", nullptr, nullptr, "time_scale=" } },
+  { "series", { "SetSeriesUID()", "--series", nullptr, "series_uid" } },
+  { "spacing", { "SetSpacing()", "--spacing", "3D Slicer's module Volumes", "spacing=" } },
+  { "origin", { "SetOrigin()", "--origin", nullptr, "origin=" } },
+  { "direction", { "SetDirection()", "--direction", nullptr, "direction=" } },
+  { "weight", { "SetTimeScale()", "--time-scale", nullptr, "time_scale=" } },
   { "times", { "AddFrameTime()", "--frame-times" } },
 };
 
@@ -321,16 +320,9 @@ const MeshingParameter& FindParameter(std::string_view name)
 
 std::string NameIn(UserInterface interface, const MeshingParameter& parameter)
 {
-  if (interface == UserInterface::SlicerCommand)
-  {
-    std::string name = NameIn(UserInterface::Slicer, parameter);
-    std::transform(name.begin(), name.end(), name.begin(),
-      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return name;
-  }
   using P = MeshingParameter;
-  static constexpr std::string P::*columns[] = { &P::Property, &P::Option, &P::Slicer, &P::Slicer,
-    &P::Python, &P::Panel, &P::Property }; // by UserInterface
+  static constexpr std::string P::*columns[] = { &P::Property, &P::Option, &P::Slicer, &P::Python,
+    &P::Panel, &P::Property }; // by UserInterface
   const std::string& given = parameter.*columns[static_cast<int>(interface)];
   if (interface == UserInterface::Slicer && parameter.Dimension == 4)
   {

@@ -123,13 +123,12 @@ struct MeshingParameter
 /** The interfaces in which parameters have names. */
 enum class UserInterface
 {
-  VTK,           ///< FacetAngle
-  CommandLine,   ///< facet-angle, no-optimise
-  Slicer,        ///< facetAngle
-  SlicerCommand, ///< facetangle: a flag of the module's executable
-  Python,        ///< facet_angle
-  ParaView,      ///< Facet Angle
-  ITK            ///< FacetAngle
+  VTK,         ///< FacetAngle
+  CommandLine, ///< facet-angle, no-optimise
+  Slicer,      ///< facetAngle
+  Python,      ///< facet_angle
+  ParaView,    ///< Facet Angle
+  ITK          ///< FacetAngle
 };
 
 /** All parameters by groups, in the order in which users see them. */

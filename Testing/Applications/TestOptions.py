@@ -520,7 +520,7 @@ class Messages(ProgramTestCase):
 
     def test_shell(self):
         self.assert_refused(2, "--delta: must be", "--input", self.input, "--delta", -1, "--messages", "shell")
-        self.assert_refused(2, "--messages: must be shell or python, not 'ruby'", "--input", self.input, "--messages", "ruby")
+        self.assert_refused(2, "--messages: must be shell, slicer or python, not 'ruby'", "--input", self.input, "--messages", "ruby")
 
 
 if __name__ == "__main__":

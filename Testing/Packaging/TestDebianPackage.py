@@ -54,6 +54,8 @@ class Package(unittest.TestCase):
         paths = {line.split()[5].lstrip("."): line for line in listing}
         for path in ("/usr/share/doc/voxplex/copyright", "/usr/share/doc/voxplex/changelog.gz"):
             self.assertIn(path, paths)
+        panel = [path for path in paths if "/qt-scripted-modules/" in path]
+        self.assertTrue(not panel or any(path.endswith("/Parameters.json") for path in panel), panel)  # which it imports
         for path, line in paths.items():
             self.assertTrue(path == "/" or path.startswith("/usr/"), path)
             self.assertIn("root/root", line)

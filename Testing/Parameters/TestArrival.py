@@ -67,13 +67,11 @@ def for_module(name, value):
     parameter = BY_PROPERTY[name]
     if not parameter["slicer"]:
         return None
-    flag = "--" + parameter["slicer"].lower()
+    flag = "--" + parameter["name"].replace("-", "_")
     if parameter["kind"] == "flag":
         return [flag, "on" if value else "off"] if parameter["default"] == "on" else [flag] * value
     if name == "Label":
         return [flag, ", ".join(map(str, value))]
-    if name == "Isovalue":
-        return ["--isosurface", flag, str(value)]
     if name in ("LabelSize", "InterfaceSize"):
         return [flag, ", ".join(text_of(values, ":") for values in value)]
     return [flag, str(value)]

@@ -30,8 +30,8 @@ TEST(Parameters, NamesOfParameters)
   EXPECT_EQ(In(UserInterface::VTK, message), "FacetAngle, SetLabelSize(), Force, AddFrameTime()");
   EXPECT_EQ(
     In(UserInterface::CommandLine, message), "--facet-angle, --label-size, --force, --frame-times");
-  EXPECT_EQ(In(UserInterface::SlicerCommand, message),
-    "--facetangle, --labelsizes, --force, AddFrameTime()");
+  EXPECT_EQ(In(UserInterface::Slicer, message),
+    "Facet angle, Largest element of labels, Force, AddFrameTime()");
   EXPECT_EQ(
     In(UserInterface::Python, message), "facet_angle, label_sizes, force=True, AddFrameTime()");
   EXPECT_EQ(In(UserInterface::ParaView, message),
@@ -70,7 +70,7 @@ TEST(Parameters, MethodsOfReaders)
     "\n  series_uid=\"1.2\"  (3 files)\n  series_uid=\"1.3\"  (4 files)");
   const std::string places = "SetSpacing() and SetSpacing(); SetOrigin()";
   EXPECT_EQ(In(UserInterface::CommandLine, places), "--spacing and --spacing; --origin");
-  EXPECT_EQ(In(UserInterface::SlicerCommand, places),
+  EXPECT_EQ(In(UserInterface::Slicer, places),
     "3D Slicer's module Volumes and 3D Slicer's module Volumes; SetOrigin()");
 }
 

@@ -5,12 +5,8 @@
 
 usage: draw_icon.py
 
-Writes the icon of the scripted module and the extension (128 x 128) and the logo of the CLI module (64 x 64,
-SegmentationToTetMesh/Logo.h: RGBA rows from the top, zlib, base 64).
+Writes the icon of the scripted module and the extension (128 x 128).
 """
-import base64
-import textwrap
-import zlib
 from pathlib import Path
 
 import numpy as np
@@ -27,31 +23,6 @@ INTERFACE = 0.5  # a radius of RINGS
 COLORS = np.array([[221, 110, 78], [244, 205, 138]], dtype=float)  # inside, outside
 EDGE = np.array([56, 44, 52], dtype=float)
 EDGE_WIDTH = 0.013
-
-LOGO_HEADER = '''\
-// SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
-// SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file Logo.h
- * @brief The logo of the module, written by Plugins/Slicer/Icons/draw_icon.py.
- */
-#ifndef voxplex_slicer_Logo_h
-#define voxplex_slicer_Logo_h
-
-namespace voxplex::slicer
-{
-
-inline constexpr int LogoWidth = %d;
-inline constexpr int LogoHeight = %d;
-inline constexpr int LogoPixelSize = 4;
-/** Rows from the top, red, green, blue and opacity; compressed by zlib, in base 64. */
-inline constexpr char Logo[] =
-%s;
-
-} // namespace voxplex::slicer
-
-#endif
-'''
 
 
 def ring_points():
@@ -111,15 +82,8 @@ def write_png(pixels, path):
     writer.Write()
 
 
-def write_logo(pixels, path):
-    text = base64.b64encode(zlib.compress(pixels.tobytes(), 9)).decode()
-    lines = "\n".join('  "%s"' % line for line in textwrap.wrap(text, 92))
-    path.write_text(LOGO_HEADER % (pixels.shape[1], pixels.shape[0], lines))
-
-
 def main():
     write_png(draw(SIZE), HERE.parent / "VoxplexMesher" / "Resources" / "Icons" / "VoxplexMesher.png")
-    write_logo(draw(64), HERE.parent / "SegmentationToTetMesh" / "Logo.h")
 
 
 if __name__ == "__main__":

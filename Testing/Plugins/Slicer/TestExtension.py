@@ -47,6 +47,8 @@ class Extension(unittest.TestCase):
             url, = re.findall(r'set\s*\(EXTENSION_%s\s*"([^"]+)"\)' % name, text)
             self.assertRegex(url, r"^https://[^$]*/raw/main/[^$]*\.png$")
             self.assertTrue((root / url.split("/raw/main/")[1]).is_file(), url)
+        icon = (EXTENSION / "VoxplexMesher/Resources/Icons/VoxplexMesher.png").read_bytes()
+        self.assertEqual((int.from_bytes(icon[16:20], "big"), int.from_bytes(icon[20:24], "big")), (128, 128))
 
     def test_licence(self):
         self.assertEqual((EXTENSION / "LICENSE").read_text(), (REPOSITORY / "LICENSE").read_text())
@@ -92,10 +94,8 @@ class Extension(unittest.TestCase):
         build = Path(folder.name)
         configure(build, "-DVOXPLEX_BUILD_CLI_MODULE=ON")
         script = (build / "cmake_install.cmake").read_text()
-        self.assertEqual(set(re.findall(r"\$\{CMAKE_INSTALL_PREFIX\}/([^\"]*/)(?:lib)?SegmentationToTetMesh", script)),
+        self.assertEqual(set(re.findall(r"\$\{CMAKE_INSTALL_PREFIX\}/([^\"]*/)SegmentationToTetMesh", script)),
                          {"lib/Slicer-5.8/cli-modules/"})
-        self.assertIn('lib/Slicer-5.8/cli-modules/SegmentationToTetMesh"', script)
-        self.assertIn('lib/Slicer-5.8/cli-modules/libSegmentationToTetMeshLib.so"', script)
         self.assertNotIn("Voxplex/cmake_install.cmake", script)
         cache = (build / "CMakeCache.txt").read_text()
         self.assertIn("CGAL_DIR", cache)

@@ -4,7 +4,6 @@
 # the system. The macros check what they are given.
 set(Slicer_CLIMODULES_BIN_DIR "lib/Slicer-5.8/cli-modules")
 set(Slicer_INSTALL_CLIMODULES_BIN_DIR "lib/Slicer-5.8/cli-modules")
-set(Slicer_INSTALL_CLIMODULES_LIB_DIR "lib/Slicer-5.8/cli-modules")
 set(Slicer_INSTALL_QTSCRIPTEDMODULES_LIB_DIR "lib/Slicer-5.8/qt-scripted-modules")
 set(Slicer_USE_FILE "${CMAKE_CURRENT_LIST_DIR}/UseSlicer.cmake")
 set(Slicer_EXTENSION_GENERATE_CONFIG "${CMAKE_CURRENT_LIST_DIR}/GenerateConfig.cmake")
