@@ -96,6 +96,8 @@ class Extension(unittest.TestCase):
         script = (build / "cmake_install.cmake").read_text()
         self.assertEqual(set(re.findall(r"\$\{CMAKE_INSTALL_PREFIX\}/([^\"]*/)SegmentationToTetMesh", script)),
                          {"lib/Slicer-5.8/cli-modules/"})
+        # The process that reads images, beside what was a library's folder in another tree.
+        self.assertRegex(script, r"lib/Slicer-5\.8/cli-modules/\.\./lib[^\"]*/voxplex/voxplexImageReader\"")
         self.assertNotIn("Voxplex/cmake_install.cmake", script)
         cache = (build / "CMakeCache.txt").read_text()
         self.assertIn("CGAL_DIR", cache)
