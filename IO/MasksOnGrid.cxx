@@ -335,20 +335,20 @@ void MasksOnGrid::Check(const ScalarImage& image, const std::string& shown) cons
   }
 }
 
-/** Those that say where they lie, or all if none does. */
+/** Those that say where they lie; if none does, one whose spacing is known, or the first. */
 std::vector<const MasksOnGrid::Place*> MasksOnGrid::Placed() const
 {
-  const bool isAny = std::any_of(this->Offered.begin(), this->Offered.end(),
-    [](const Place& place) { return place.Image.HasPlace; });
   std::vector<const Place*> placed;
+  const Place* measured = nullptr;
   for (const Place& place : this->Offered)
   {
-    if (place.Image.HasPlace || !isAny)
+    if (place.Image.HasPlace)
     {
       placed.push_back(&place);
     }
+    measured = measured || !place.Image.HasSpacing ? measured : &place;
   }
-  return placed;
+  return !placed.empty() ? placed : std::vector{ measured ? measured : &this->Offered.front() };
 }
 
 void MasksOnGrid::OfferGrid(ScalarImage image, const std::string& shown)
@@ -372,13 +372,14 @@ bool MasksOnGrid::TakePlace(ScalarImage& image, const std::string& shown)
   }
   std::vector<const Place*> same = this->Placed();
   const bool isFirstPlaced = same.front()->Image.HasPlace;
-  const std::size_t others = std::erase_if(
+  const bool isFirstWithSpacing = !same.front()->Image.HasSpacing && image.HasSpacing;
+  std::erase_if(
     same, [&image](const Place* place) { return place->Image.Dimensions != image.Dimensions; });
-  if (same.empty() && this->Offered.size() == 1) // there may be others
+  if ((same.empty() && this->Offered.size() == 1) || (!isFirstPlaced && isFirstWithSpacing))
   {
-    return false;
+    return false; // there may be others
   }
-  RefuseIf(same.empty() || (!isFirstPlaced && others > 0), shown,
+  RefuseIf(same.empty(), shown,
     " does not say where it lies, and must have the size of another mask that does, or of all, but "
     "it has ",
     Listed(image.Dimensions), " voxels: save masks with their place, as NRRD or NIfTI");
@@ -397,12 +398,13 @@ bool MasksOnGrid::TakePlace(ScalarImage& image, const std::string& shown)
     put.Spacing = first.Image.Spacing;
     put.Unit = first.Image.Unit;
   }
-  if (!(this->MayResample && !isFirstPlaced) && !AreOnOneLattice(put, first.Image))
+  if (!AreOnOneLattice(put, first.Image))
   {
     RefuseOther(first.Image, first.Shown, put, shown);
   }
-  if (!isFirstPlaced)
+  if (!isFirstPlaced) // all lie where one of them is guessed to lie
   {
+    image = std::move(put);
     return false;
   }
   this->Put += (this->Put.empty() ? "" : ", ") + shown;
