@@ -82,7 +82,8 @@ std::vector<std::string> ListMasks(const std::string& folder, std::vector<std::s
   }
   if (!masks.empty() && !text.empty())
   {
-    warnings.push_back(folder + ": left out what is no image: " + text);
+    warnings.push_back(
+      folder + ": left out what is no image, or a mask only if it is named: " + text);
   }
   return SortByNumbers(masks);
 }

@@ -238,7 +238,11 @@ bool vtkSegmentationReader::Read()
       this->ResampleMasks, this->IsPlaced());
     data.Image = std::move(answer.Image);
     data.Labels = std::move(answer.Labels);
-    data.Warnings = std::move(answer.PlaceGuesses);
+    if (std::ranges::any_of(this->Origin, [](double number) { return std::isnan(number); }) ||
+      std::ranges::all_of(this->Direction, [](double number) { return number == 0; }))
+    {
+      data.Warnings = std::move(answer.PlaceGuesses);
+    }
     if (!std::all_of(std::begin(this->Spacing), std::end(this->Spacing),
           [](double number) { return number > 0; }))
     {

@@ -115,7 +115,7 @@ class WholeBody(MaskTestCase):
             self.assertEqual({label: name for label, (name, _) in table_of(reader.GetOutput()).items()},
                              {n + 1: name for n, name in enumerate(self.names) if n + 1 in labels})
             told = warnings_of(reader)
-            self.assertEqual(told[0], f"{self.folder}: left out what is no image: report.json, volumes.csv")
+            self.assertEqual(told[0], f"{self.folder}: left out what is no image, or a mask only if it is named: report.json, volumes.csv")
             self.check_overlaps(told[1], masks, word)
             hidden = [name for n, name in enumerate(self.names) if n + 1 not in labels]
             self.assertEqual(told[2:], [f"masks of which overlaps leave no voxel: {', '.join(hidden)}"] if hidden else [])
@@ -675,6 +675,23 @@ class Unplaced(MaskTestCase):
                 np.testing.assert_array_equal(voxels(image), combined([self.MASK > 0, self.OTHER > 0], SMALLEST))
                 if properties:
                     np.testing.assert_allclose(image.GetOrigin(), (1, 2, 3))
+
+    def test_other_guesses(self):
+        """Formats guess other axes and spacings: of two masks without a place, one lies where the other does."""
+        kinds = self.KINDS[:-1]
+        for (n, one), (m, other) in itertools.permutations(enumerate(kinds), 2):
+            with self.subTest(one=one, other=other):
+                paths = [self.file(one, self.MASK, f"a{n}"), self.file(other, self.OTHER, f"b{m}")]
+                image = self.read_masks(paths, ResampleMasks=n % 2 == 0).GetOutput()
+                np.testing.assert_array_equal(voxels(image), combined([self.MASK > 0, self.OTHER > 0], SMALLEST))
+                known = [kind for kind in (one, other) if kind not in ("TIFF", "NRRD", "MGH")]
+                np.testing.assert_allclose(image.GetSpacing(), self.PLACE.spacing if known else (1, 1, 1))
+
+    def test_guess_is_told_unless_it_is_replaced(self):
+        path = self.file("NIfTI", self.MASK)
+        place = {"Origin": (1, 2, 3), "Direction": np.eye(3).ravel().tolist()}
+        for properties, told in (({}, True), ({"Origin": (1, 2, 3)}, True), (place, False)):
+            self.assertEqual("taken for those of RAS" in " ".join(warnings_of(self.reader(path, **properties))), told)
 
     def test_one_place_for_several(self):
         """A place that is given replaces one, not those of masks that begin at several."""
