@@ -77,6 +77,17 @@ void PutPlace(std::ostream& header, vtkImageData* image, bool isSeries)
   header << "\nkinds: domain domain domain" << (isSeries ? " list" : "") << '\n';
 }
 
+/** As NRRD has texts of keys: with escapes, in one line. */
+std::string Escaped(const std::string& name)
+{
+  std::string text;
+  for (const char c : name)
+  {
+    text += c == '\\' ? "\\\\" : c == '\n' ? "\\n" : std::string(1, c == '\r' ? ' ' : c);
+  }
+  return text;
+}
+
 void PutLabels(std::ostream& header, const io::LabelTable& table)
 {
   int number = 0;
@@ -86,7 +97,7 @@ void PutLabels(std::ostream& header, const io::LabelTable& table)
     header << segment << "ID:=Segment_" << value << '\n'
            << segment << "LabelValue:=" << value << '\n'
            << segment << "Layer:=0\n"
-           << segment << "Name:=" << entry.Name << '\n';
+           << segment << "Name:=" << Escaped(entry.Name) << '\n';
     if (entry.Color)
     {
       const auto& [red, green, blue] = *entry.Color;

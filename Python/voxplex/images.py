@@ -294,7 +294,8 @@ def _segments(image: Image) -> List[str]:
     for number, (label, name) in enumerate(sorted(image.names.items())):
         if name.strip() and not IS_NO_TEXT.search(name):
             key = f"Segment{number}_"
-            lines += [f"{key}ID:=Segment_{label}", f"{key}LabelValue:={label}", f"{key}Layer:=0", f"{key}Name:={name}"]
+            lines += [f"{key}ID:=Segment_{label}", f"{key}LabelValue:={label}", f"{key}Layer:=0",
+                      f"{key}Name:=" + name.replace("\\", "\\\\")]
             if label in image.colors:
                 lines.append(f"{key}Color:={' '.join(repr(float(part)) for part in image.colors[label])}")
     return lines
