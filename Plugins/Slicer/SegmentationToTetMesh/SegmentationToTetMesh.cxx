@@ -305,7 +305,16 @@ std::vector<Given> TakeFlags(const std::vector<std::string>& words, Call& call)
     }
     else if (isFlag || (equals == word->size() && word + 1 == words.end()))
     {
-      call.Command.push_back(found == parameters.end() ? *word : "--" + found->Option);
+      const std::string value = word->substr(std::min(equals + 1, word->size()));
+      const bool isOn = value.empty() || value == "true" || value == "1";
+      if (found == parameters.end() || !(isOn || value == "false" || value == "0"))
+      {
+        call.Command.push_back(*word);
+      }
+      else if (isOn)
+      {
+        call.Command.push_back("--" + found->Option);
+      }
     }
     else
     {
@@ -334,7 +343,10 @@ void AddOption(const Parameter& parameter, const std::string& value, Call& call)
   }
   for (std::string item : io::Split(value, ',')) // "3:7=0.4, 5=1"
   {
-    std::replace(item.begin(), item.end(), ':', ',');
+    if (parameter.Name == "interfaceSizes")
+    {
+      std::replace(item.begin(), item.end(), ':', ',');
+    }
     call.Command.push_back(option + '=' + item);
   }
 }

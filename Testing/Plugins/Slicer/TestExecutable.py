@@ -100,6 +100,17 @@ class Runs(ModuleTestCase):
         self.assertEqual(self.names_and_colours(self.folder / "mesh.vtu"),
                          {3: ("Femur, left", (0.5, 0.25, 1.0)), 7: ("Müll", (0.0, 1.0, 0.75))})
 
+    def test_values_of_flags_and_names_with_colons(self):
+        images.write_nrrd(self.folder / "two.seg.nrrd", self.array, self.geometry, key_values={
+            "Segment0_ID": "s0", "Segment0_Name": "A:B", "Segment0_LabelValue": "3", "Segment0_Layer": "0"})
+        sizes = []
+        for flags in ((), ("--exact_components=false",), ("--exact_components=true",), ("--exact_components",),
+                      ("--label_size", "A:B=1.5"), ("--label_size", "3=1.5")):
+            self.run_module("two.seg.nrrd", "mesh.vtu", "--delta", 3, "--threads", 1, *flags)
+            sizes.append(len(meshfiles.read_tetrahedra(self.folder / "mesh.vtu").cells))
+        self.assertEqual((sizes[1], sizes[3], sizes[5]), (sizes[0], sizes[2], sizes[4]))
+        self.assertGreater(sizes[4], sizes[0])
+
     def test_colour_table(self):
         """As Slicer writes it for a colour node."""
         (self.folder / "names.ctbl").write_text("# Color table file\n# 3 values\n0 background 0 0 0 0\n"
