@@ -257,9 +257,12 @@ void TakeWords(std::vector<std::string> words, Parameters& p)
     takeFirst(p.Mesh);
   }
   const bool isFollowing = words.size() + p.Inputs.size() > (readsMesh ? 0 : 1) && !words.empty();
-  const bool isOutput = p.Action == Verb::Mesh ? isFollowing &&
-      vtkSimplexMeshWriter::HasFormat(words.back(), vtkSimplexMeshWriter::CONTENT_MESH, 0)
-                                               : isFollowing && p.Action != Verb::Measure;
+  const auto isFormatOf = [&words](int content)
+  { return vtkSimplexMeshWriter::HasFormat(words.back(), content, 0); };
+  const bool isOutput = isFollowing &&
+    (p.Action == Verb::Mesh ? isFormatOf(vtkSimplexMeshWriter::CONTENT_MESH) ||
+          isFormatOf(vtkSimplexMeshWriter::CONTENT_INTERFACES) // which is refused by name
+                            : p.Action != Verb::Measure);
   if (isOutput && p.Output.empty())
   {
     takeLast(p.Output);

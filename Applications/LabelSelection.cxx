@@ -131,9 +131,9 @@ void AddLabels(
       " is not a range of labels, such as 3-7: from 1 on, the smaller first, at most 100000 of "
       "them");
   }
-  for (std::int64_t label = *first; label <= *last; ++label)
+  for (std::int64_t i = 0; i <= *last - *first; ++i)
   {
-    labels.push_back(label);
+    labels.push_back(*first + i);
   }
 }
 

@@ -321,11 +321,11 @@ std::string ShortHelp()
   }
   text << R"(
 Examples:
-  voxplex knee.nrrd knee.vtu --delta 1.5          triangles of about 1.5 mm on the interfaces
+  voxplex knee.nrrd knee.vtu --delta 1.5          edges of 1.5 to 3 mm on the interfaces
   voxplex knee.nrrd knee.inp --elements 500000    for Abaqus or CalculiX, of about 500,000 elements
   voxplex left.nii.gz right.nii.gz both.vtu       masks, one for each structure
   voxplex measure knee.vtu knee.nrrd --hausdorff
-  voxplex convert knee.vtu knee.msh --interfaces knee.vtp
+  voxplex convert knee.vtu knee.msh
   voxplex image knee.nrrd knee2.nrrd --fill-holes 50
 
 Options of the first that are wanted most:
