@@ -399,6 +399,25 @@ std::vector<double> PlanesInFrame(
   return times;
 }
 
+/** What is wrong if all of the series, in seconds perhaps, counts less than one voxel; else empty. */
+std::string OddTimeScale(const voxplex::SpaceTimeFrame& frame)
+{
+  const double step = frame.Grid.IndexToFrame[3][3];
+  const double edge = std::cbrt(frame.Grid.VoxelVolume() / step);
+  const double duration = step * static_cast<double>(frame.Grid.Dimensions[3] - 1);
+  if (duration >= edge)
+  {
+    return "";
+  }
+  const double scale = frame.TimeScale * edge / step;
+  const double digit = std::pow(10.0, std::floor(std::log10(scale)));
+  return "With a {time-scale} of " + voxplex::NumberText(frame.TimeScale) +
+    " the whole series counts " + voxplex::NumberText(duration) +
+    ", less than the edge of a voxel (" + voxplex::NumberText(edge) +
+    "): elements become flat, and volumes wrong. A {time-scale} of about " +
+    voxplex::NumberText(std::round(scale / digit) * digit) + " makes a frame as long as a voxel.";
+}
+
 } // namespace
 
 //----------------------------------------------------------------------------------------------------
@@ -421,6 +440,11 @@ void vtkImageToPentatopeMeshFilter::Mesh(
   run.Options.SpaceTime.Slivers.Seed = static_cast<std::uint64_t>(this->RandomSeed);
   run.Options.Team.FineGrained = this->FineGrained;
   run.ProgressBefore = GatheringProgress;
+  const std::string odd = OddTimeScale(frame);
+  if (!odd.empty())
+  {
+    run.Warn(odd);
+  }
 
   const unsigned threads = run.Options.Team.Threads;
   voxplex::SimplexMesh<4> mesh;

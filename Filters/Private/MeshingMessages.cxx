@@ -155,7 +155,7 @@ std::vector<std::string> WarningsOf(const MeshingStatistics& run,
   if (run.FramesOff.Number > 0)
   {
     warnings.push_back("Volumes are off by 3 % or more in " + std::to_string(run.FramesOff.Number) +
-      (run.FramesOff.Number == 1 ? " frame" : " frames") + ", most in that of t = " +
+      (run.FramesOff.Number == 1 ? " frame" : " frames") + ", most in frame " +
       std::to_string(run.FramesOff.Frame) + " (from 0 on), where the mesh has " +
       std::to_string(std::lround(100.0 * run.FramesOff.Share)) + " % of label " +
       describeLabel(run.FramesOff.Label) +

@@ -190,6 +190,13 @@ public:
 
   voxplex::MeshingStatistics& Statistics() { return this->Filter->Private->Statistics->Edit(); }
 
+  void Warn(const std::string& warning)
+  {
+    this->Filter->Private->Warnings.push_back(
+      vtkImageToSimplexMeshFilter::InTermsOf(this->Filter->Vocabulary, warning));
+    vtkWarningWithObjectMacro(this->Filter, << this->Filter->Private->Warnings.back());
+  }
+
 private:
   /** If the image of sizes does not reach as far as the mesh. */
   void WarnOfSizes(const voxplex::SimplexMesh<D>& mesh)
@@ -206,9 +213,7 @@ private:
       const std::string warning = "The image of sizes ({size-image}) does not cover " +
         std::to_string(outside) + " of " + std::to_string(mesh.Points.size()) +
         " vertices of the mesh; there the nearest of its sizes holds.";
-      this->Filter->Private->Warnings.push_back(
-        vtkImageToSimplexMeshFilter::InTermsOf(this->Filter->Vocabulary, warning));
-      vtkWarningWithObjectMacro(this->Filter, << this->Filter->Private->Warnings.back());
+      this->Warn(warning);
     }
   }
 

@@ -180,6 +180,7 @@ class Refusal(NamesTestCase):
                                                                          images.two_labels(16, 6.0)))
         self.assertEqual(self.labels("--labels", "3-4"), {3, 4})
         self.refuse("Label 5 was asked for, but does not occur", "--labels", "3-5", status=1)
+        self.refuse("Label 9223372036854775806 was asked", "--labels", "9223372036854775806-9223372036854775807", status=1)
         for text in ("0-3", "4-3", "1-100001", "3-9223372036854775807"):
             self.refuse(f"--labels: '{text}' is not a range of labels, such as 3-7", "--labels", text)
         (self.folder / "names.txt").write_text("3 A\n4 1-2\n")
@@ -218,11 +219,18 @@ class Output(NamesTestCase):
         for name in ("m.vtu", "i.vtp"):
             self.assertEqual(names_of(self.folder / name), self.EXPECTED)
 
+    def test_names_with_escapes(self):
+        """A line break in a name does not end the header of the image, and a backslash stays."""
+        (self.folder / "names.txt").write_text('3,"C:\\new"\n7,"a\\nsizes: 1 1 1"\n')
+        self.call("image", self.image, "o.nrrd", "--label-table", "names.txt")
+        self.mesh("--input", "o.nrrd", "--delta", 3, "--output", "m.vtu")
+        self.assertEqual(names_of(self.folder / "m.vtu"), {3: "C:\\new", 7: "a\\nsizes: 1 1 1"})
+
     def test_space_time(self):
         path = images.write_nrrd(self.folder / "t.nrrd", np.stack([images.two_labels(16, 6.0)] * 3))
         done = self.mesh("--input", path, "--label-table", "names.txt", "--delta", 4, "--labels", "Left hippocampus",
                          "--output", "m.vtu", "--plc", "b.vtu", "--slices", "s_")
-        self.assertRegex(done.stderr, r"Volumes are off by 3 % or more in \d frames?, most in that of t = \d \(from 0 on\), where the mesh "
+        self.assertRegex(done.stderr, r"Volumes are off by 3 % or more in \d frames?, most in frame \d \(from 0 on\), where the mesh "
                                       r"has \d+ % of label 3 \(Left hippocampus\)\. A larger --time-scale follows")
         for name in ("m.vtu", "b.vtu", "s_0.vtu", "s_2.vtu"):
             self.assertEqual(names_of(self.folder / name), {3: "Left hippocampus"})

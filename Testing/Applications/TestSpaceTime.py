@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Images of space and time: the mesh lies where and when the frames lie. What is in files is tested in IO/matrix."""
 import json
+import re
 
 import numpy as np
 
@@ -53,6 +54,17 @@ class Times(SpaceTimeTestCase):
         path = images.write_nifti(self.folder / "heart.nii", images.moving_balls(7, 16), pixdim=[1, 1, 1, 0])
         mesh = self.mesh_of(path, warning="heart.nii: .*0 for the time from frame to frame.* taken to be 1.*--time-scale")
         self.assertEqual((mesh.points[:, 3].min(), mesh.points[:, 3].max()), (0.0, 6.0))
+
+    def test_seconds(self):
+        """A series that lasts less than a voxel is long gets no useful mesh, and is told of."""
+        for step, warns in ((0.05, True), (0.5, False)):
+            path = images.write_nifti(self.folder / "heart.nii", images.moving_balls(4, 12, 3.0),
+                                      images.Geometry(spacing=(1.0, 1.0, 1.0), time_step=step))
+            done = self.call("--input", path, "--delta", 3, "--threads", 1, "--output", "m.vtu")
+            self.assertEqual(done.returncode, 0)
+            told = re.search(r"With a --time-scale of 1 the whole series counts 0\.15, less than the edge of a voxel \(1\): .* A "
+                             r"--time-scale of about 20 makes a frame as long as a voxel\.", done.stderr)
+            self.assertEqual(told is not None, warns, done.stderr)
 
 
 class Space(SpaceTimeTestCase):
