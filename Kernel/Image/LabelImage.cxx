@@ -226,6 +226,15 @@ private:
   }
 };
 
+/** The first 20, and how many there are. */
+std::string Some(const std::vector<std::int64_t>& labels)
+{
+  const std::vector<std::int64_t> shown(
+    labels.begin(), labels.begin() + std::min<std::ptrdiff_t>(20, std::ssize(labels)));
+  return Format(shown) +
+    (labels.size() > shown.size() ? ", ... (" + std::to_string(labels.size()) + " in all)" : "");
+}
+
 /**
  * Throws if a selected label is 0, or does not occur.
  * @param occurring the labels of the image, in increasing order
@@ -233,6 +242,7 @@ private:
 void CheckSelected(const std::vector<std::int64_t>& selected,
   const std::vector<std::int64_t>& occurring, const std::string& was, const std::string& purpose)
 {
+  std::vector<std::int64_t> missing;
   for (const std::int64_t value : selected)
   {
     if (value == 0)
@@ -242,14 +252,15 @@ void CheckSelected(const std::vector<std::int64_t>& selected,
     }
     if (!std::binary_search(occurring.begin(), occurring.end(), value))
     {
-      const std::vector<std::int64_t> shown(
-        occurring.begin(), occurring.begin() + std::min<std::ptrdiff_t>(20, std::ssize(occurring)));
-      throw InputError("Label " + std::to_string(value) + " was " + was +
-        ", but does not occur in the image; its labels are " + Format(shown) +
-        (occurring.size() > shown.size() ? ", ... (" + std::to_string(occurring.size()) + " in all)"
-                                         : "") +
-        ". Correct " + purpose + ".");
+      missing.push_back(value);
     }
+  }
+  if (!missing.empty())
+  {
+    throw InputError(
+      (missing.size() == 1 ? "Label " + Some(missing) + " was " + was + ", but does"
+                           : "Labels " + Some(missing) + " were " + was + ", but do") +
+      " not occur in the image; its labels are " + Some(occurring) + ". Correct " + purpose + ".");
   }
 }
 

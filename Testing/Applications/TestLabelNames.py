@@ -180,7 +180,10 @@ class Refusal(NamesTestCase):
                                                                          images.two_labels(16, 6.0)))
         self.assertEqual(self.labels("--labels", "3-4"), {3, 4})
         self.refuse("Label 5 was asked for, but does not occur", "--labels", "3-5", status=1)
-        self.refuse("Label 9223372036854775806 was asked", "--labels", "9223372036854775806-9223372036854775807", status=1)
+        self.refuse("Labels 1, 2, 5, 6 were asked for, but do not occur in the image; its labels are 3, 4", "--labels", "1-6", status=1)
+        self.refuse(r"Labels 5, .*, 24, \.\.\. \(46 in all\) were", "--labels", "3-50", status=1)
+        self.refuse("Labels 9223372036854775806, 9223372036854775807 were asked", "--labels",
+                    "9223372036854775806-9223372036854775807", status=1)
         for text in ("0-3", "4-3", "1-100001", "3-9223372036854775807"):
             self.refuse(f"--labels: '{text}' is not a range of labels, such as 3-7", "--labels", text)
         (self.folder / "names.txt").write_text("3 A\n4 1-2\n")
