@@ -236,6 +236,15 @@ void StartMesh(Structure& structure, const TextFields& attributes)
   }
 }
 
+/** VTK takes text in base64 from the file itself, and stops at what is no letter there. */
+void Interrupt(Structure& structure)
+{
+  if (structure.OfBase64 && structure.OfBase64->Length > 0)
+  {
+    structure.OfBase64->HasBlank = true; // more letters are none that VTK reads
+  }
+}
+
 void StartElement(
   Structure& structure, XMLParser& parser, std::string_view name, const TextFields& attributes)
 {
@@ -247,6 +256,7 @@ void StartElement(
   if (structure.OfBase64 || structure.OfText)
   {
     ++structure.Nested;
+    Interrupt(structure);
   }
   if (name == "VTKFile")
   {
@@ -295,7 +305,7 @@ void CheckWord(Structure& structure)
   structure.Word.clear();
 }
 
-void AddText(Structure& structure, std::string_view text)
+void AddText(Structure& structure, XMLParser& parser, std::string_view text)
 {
   if (structure.Nested > 0)
   {
@@ -304,6 +314,8 @@ void AddText(Structure& structure, std::string_view text)
   if (structure.OfBase64)
   {
     structure.OfBase64->Add(text);
+    structure.OfBase64->IsInterrupted = structure.OfBase64->IsInterrupted ||
+      (parser.Length() != text.size() && !IsBlank(text[0])); // written as a reference, &#65;
   }
   for (const char letter : structure.OfText ? text : std::string_view())
   {
@@ -345,7 +357,9 @@ Structure Parse(const InputFile& file)
   Structure structure;
   XMLParser parser({ [&](std::string_view name, const TextFields& attributes)
     { StartElement(structure, parser, name, attributes); },
-    [&] { EndElement(structure); }, [&](std::string_view text) { AddText(structure, text); } });
+    [&] { EndElement(structure); },
+    [&](std::string_view text) { AddText(structure, parser, text); },
+    [&] { Interrupt(structure); } });
   std::vector<std::byte> buffer(1 << 20);
   std::uint64_t position = 0;
   bool isLast = false;

@@ -35,6 +35,11 @@ XMLParser::XMLParser(Events events)
     [](void* self, const char* text, int length) {
       static_cast<XMLParser*>(self)->On.Text({ text, static_cast<std::size_t>(length) });
     });
+  XML_SetCommentHandler(
+    parser, [](void* self, const char* /*text*/) { static_cast<XMLParser*>(self)->On.Comment(); });
+  XML_SetProcessingInstructionHandler(parser,
+    [](void* self, const char* /*target*/, const char* /*text*/)
+    { static_cast<XMLParser*>(self)->On.Comment(); });
   XML_SetStartDoctypeDeclHandler(parser,
     [](void* self, const char* /*name*/, const char* /*system*/, const char* /*identifier*/,
       int /*hasInternalSubset*/)
@@ -74,6 +79,11 @@ void XMLParser::Stop()
 std::uint64_t XMLParser::Offset() const
 {
   return static_cast<std::uint64_t>(XML_GetCurrentByteIndex(this->Parser.get()));
+}
+
+std::size_t XMLParser::Length() const
+{
+  return static_cast<std::size_t>(XML_GetCurrentByteCount(this->Parser.get()));
 }
 
 } // namespace voxplex::io

@@ -7,6 +7,7 @@
 #ifndef voxplex_io_XMLParser_h
 #define voxplex_io_XMLParser_h
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -34,6 +35,7 @@ public:
     std::function<void(std::string_view name, const TextFields& attributes)> Start;
     std::function<void()> End = [] {};
     std::function<void(std::string_view text)> Text; ///< a part of what is between tags
+    std::function<void()> Comment = [] {};           ///< or an instruction for a program
   };
 
   explicit XMLParser(Events events);
@@ -45,9 +47,10 @@ public:
   std::string Error() const; ///< what is wrong, and in which line
 
   ///@{
-  /** While an event is handled: reads no more; where it is in the file, in bytes. */
+  /** While an event is handled: reads no more; where it is in the file, and how long, in bytes. */
   void Stop();
   std::uint64_t Offset() const;
+  std::size_t Length() const;
   ///@}
 
 private:

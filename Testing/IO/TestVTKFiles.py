@@ -249,6 +249,10 @@ class Files(FolderTestCase):
         xml = self.save_xml(image_of(("labels", ARRAY)), DataMode=1, CompressorType=0).read_bytes()
         at = xml.index(b">", xml.index(b"<DataArray")) + 40
         self.refused(BROKEN, self.save(xml[:at] + xml[at + 60:], "i.vti"))
+        for foreign in (b"<!-- -->", b"<?a b?>", b"<a/>", b"\n", b"&#%d;" % xml[at]):
+            with self.subTest(foreign):  # VTK ends there, and takes 0 for the rest
+                self.refused("line breaks or foreign letters within",
+                             self.save(xml[:at] + foreign + xml[at + foreign.startswith(b"&"):], "i.vti"))
         for base64, big in itertools.product((0, 1), (0, 1)):
             xml = self.save_xml(image_of(("labels", ARRAY), ("more", ARRAY[::-1])), DataMode=2, CompressorType=0,
                                 EncodeAppendedData=base64, HeaderType=64 if big else 32, ByteOrder=1 - big).read_bytes()
