@@ -43,7 +43,7 @@ int main(int argc, char* argv[])
 
   vtkNew<vtkImageToTetMeshFilter> mesher;
   mesher->SetInputData(image);
-  mesher->SetDelta(2.0);        // edges of about 2 mm on interfaces
+  mesher->SetDelta(2.0);        // edges of 2 to 4 mm on interfaces
   mesher->SetLabelSize(2, 1.5); // circumradii below 1.5 mm in the ball
   mesher->ComputeQualityOn();
   mesher->Update();

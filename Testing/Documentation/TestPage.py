@@ -8,7 +8,7 @@ In one empty folder, in order: blocks of `sh` by bash, blocks of `python` in one
 `<!-- file: NAME -->` is written to that file; one after `<!-- not run: REASON -->` is left out, and so is one after
 `<!-- needs: NAMES -->` if one of these programs or Python modules is not there; one of `sh` after `<!-- fails: REASON -->`
 must end with an error.
-PYTHONPATH and VOXPLEX_PREFIX (an install tree, which stands for ~/voxplex) say what is tested.
+PYTHONPATH and VOXPLEX_PREFIX (an install tree, which stands for ~/voxplex and ~/voxplex-cxx) say what is tested.
 """
 
 import contextlib
@@ -27,14 +27,15 @@ BLOCK = re.compile(r"^(?:<!-- (?P<mark>file|needs|not run|fails): (?P<value>.*?)
 
 
 def environment(folder):
-    """A home with ~/voxplex, whose programs are found, and this interpreter as python3."""
+    """A home with ~/voxplex and ~/voxplex-cxx, whose programs are found, and this interpreter as python3."""
     programs = folder / "bin"
     programs.mkdir()
     (programs / "python3").write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n')  # a link would leave a virtual environment
     (programs / "python3").chmod(0o755)
     result = {**os.environ, "HOME": str(folder), "PATH": f"{programs}:{folder / 'voxplex' / 'bin'}:{os.environ['PATH']}"}
     if "VOXPLEX_PREFIX" in os.environ:
-        (folder / "voxplex").symlink_to(os.environ["VOXPLEX_PREFIX"])
+        for name in ("voxplex", "voxplex-cxx"):  # README's virtual environment, and the prefix of Cxx.md
+            (folder / name).symlink_to(os.environ["VOXPLEX_PREFIX"])
     return result
 
 
