@@ -23,10 +23,10 @@ namespace voxplex::io
  * after the other, and each is forgotten before the next; if their grids differ, all are read again. Anything else is
  * read by ReadImage().
  *
+ * A mask whose file does not say where it lies is put where another one of its size lies; see MasksOnGrid::TakePlace().
+ *
  * @param paths not empty
  * @param request its path is not used
- * A mask whose file does not say where it lies is put where another one of its size lies.
- *
  * @param resample whether masks are resampled to the finest grid, by nearest neighbour, if their grids differ by more
  *   than whole voxels
  * @param isPlaced whether the place of the result will be replaced, so that masks must have one

@@ -47,9 +47,10 @@ public:
   void OfferGrid(ScalarImage image, const std::string& shown);
 
   /**
-   * Puts a mask that does not say where it lies where another one of its size lies, if there is one that does.
+   * Puts a mask that does not say where it lies where another one of its size does; if none says it, where one of
+   * them is guessed to lie.
    *
-   * @return whether it was put there
+   * @return whether its place is no guess any more
    * @throws FileError if there is none of its size, or several at different places, and for another spacing
    */
   bool TakePlace(ScalarImage& image, const std::string& shown);

@@ -75,7 +75,7 @@ struct Letters
 {
   std::string Beginning;
   std::uint64_t Length = 0;
-  bool HasBlank = false; ///< after the first letter
+  bool HasEnded = false; ///< for VTK: after a letter came what is none
   bool IsInterrupted =
     false; ///< by blanks or other letters, for which VTK takes numbers that it has
 
@@ -87,10 +87,10 @@ struct Letters
         (letter >= '0' && letter <= '9') || letter == '+' || letter == '/' || letter == '=';
       if (IsBlank(letter))
       {
-        this->HasBlank = this->Length > 0;
+        this->HasEnded = this->Length > 0;
         continue;
       }
-      this->IsInterrupted = this->IsInterrupted || this->HasBlank || !isBase64;
+      this->IsInterrupted = this->IsInterrupted || this->HasEnded || !isBase64;
       this->Beginning.append(this->Length++ < LettersOfCounts ? 1 : 0, letter);
     }
   }
@@ -241,7 +241,7 @@ void Interrupt(Structure& structure)
 {
   if (structure.OfBase64 && structure.OfBase64->Length > 0)
   {
-    structure.OfBase64->HasBlank = true; // more letters are none that VTK reads
+    structure.OfBase64->HasEnded = true;
   }
 }
 

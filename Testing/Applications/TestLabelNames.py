@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Labels by name: on the command line, in the mesh, and in the statistics."""
 import json
+import struct
 import unittest
 from pathlib import Path
 
@@ -228,6 +229,14 @@ class Output(NamesTestCase):
         self.call("image", self.image, "o.nrrd", "--label-table", "names.txt")
         self.mesh("--input", "o.nrrd", "--delta", 3, "--output", "m.vtu")
         self.assertEqual(names_of(self.folder / "m.vtu"), {3: "C:\\new", 7: "a\\nsizes: 1 1 1"})
+        table = (b'<CaretExtension><VolumeInformation><LabelTable><Label Key="3">a\n\nb\nsizes: 1 1 1</Label></LabelTable>'
+                 b"</VolumeInformation></CaretExtension>").ljust(152)
+        plain = Path(images.write_nifti(self.folder / "i.nii", images.two_labels(16, 6.0))).read_bytes()
+        (self.folder / "i.nii").write_bytes(plain[:108] + struct.pack("<f", 512.0) + plain[112:348] + b"\1\0\0\0" +
+                                            struct.pack("<2i", 160, 0) + table + plain[352:])
+        self.call("image", "i.nii", "o.nrrd")
+        self.mesh("--input", "o.nrrd", "--delta", 3, "--output", "m.vtu")
+        self.assertEqual(names_of(self.folder / "m.vtu"), {3: "a  b sizes: 1 1 1"})
 
     def test_space_time(self):
         path = images.write_nrrd(self.folder / "t.nrrd", np.stack([images.two_labels(16, 6.0)] * 3))
