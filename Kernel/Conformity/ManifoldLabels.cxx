@@ -109,15 +109,19 @@ void ManifoldLabeller<D>::Mark(const SimplexLabels& labels, const Simplices& cha
   }
 }
 
-/** Gives simplices that are not examined the labels at their circumcentres, and returns them. */
+/**
+ * Gives simplices that are not examined the labels at their circumcentres, and returns them. So it does with
+ * those beside them that have been given another label: the bounds that this label keeps are those of
+ * facets that are gone.
+ */
 template <int D>
 auto ManifoldLabeller<D>::TakeLabels(SimplexLabels& labels) const -> Simplices
 {
   const std::size_t ids = this->Source.SimplexIdEnd();
   labels.resize(ids);
-  return ParallelCollect<SimplexId>(
+  Simplices fresh = ParallelCollect<SimplexId>(
     ids, Grain, this->Threads,
-    [&](std::size_t first, std::size_t last, Simplices& fresh)
+    [&](std::size_t first, std::size_t last, Simplices& some)
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
@@ -130,12 +134,45 @@ auto ManifoldLabeller<D>::TakeLabels(SimplexLabels& labels) const -> Simplices
         if (!state.Examined)
         {
           state.Given = LabelAtCentre(this->Source, *this->Options.Surfaces, s);
-          fresh.push_back(s);
+          some.push_back(s);
         }
         labels[s] = state.Given;
       }
     },
     this->Stop);
+  const auto appendOutdated = [&](SimplexId of, Simplices& some)
+  {
+    for (const SimplexId n : this->Source.GetSimplex(of).N)
+    {
+      if (n != None && this->Source.State(n).Examined &&
+        labels[n] != LabelAtCentre(this->Source, *this->Options.Surfaces, n))
+      {
+        some.push_back(n);
+      }
+    }
+  };
+  Simplices outdated = ParallelCollect<SimplexId>(
+    fresh.size(), Grain, this->Threads,
+    [&](std::size_t first, std::size_t last, Simplices& some)
+    {
+      for (std::size_t k = first; k < last; ++k)
+      {
+        appendOutdated(fresh[k], some);
+      }
+    },
+    this->Stop);
+  for (std::size_t k = 0; k < outdated.size(); ++k)
+  {
+    const SimplexId s = outdated[k];
+    SimplexState& state = this->Source.State(s);
+    if (std::exchange(state.Examined, false))
+    {
+      labels[s] = state.Given = LabelAtCentre(this->Source, *this->Options.Surfaces, s);
+      fresh.push_back(s);
+      appendOutdated(s, outdated);
+    }
+  }
+  return fresh;
 }
 
 /** Returns the simplices that have another label than TakeLabels() gave them. */

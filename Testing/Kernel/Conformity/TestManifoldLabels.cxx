@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Labels stay with their simplices through further refinement, and boundaries are as manifold as if all
-// simplices were looked at.
+// Labels stay with their simplices while there is nothing new beside them, and boundaries are as manifold as if
+// all simplices were looked at.
 #include "Conformity/ManifoldLabels.h"
 #include "Delaunay/VertexStar.h"
 #include "Domain/ImageDomain.h"
+#include "Geometry/SimplexQuality.h"
 #include "InterfaceChecks.h"
 #include "Refinement/Rules/Rules4D.h"
 #include "RefinementChecks.h"
@@ -19,6 +20,7 @@
 #include <map>
 #include <memory>
 #include <random>
+#include <set>
 #include <vector>
 
 using namespace voxplex;
@@ -106,6 +108,42 @@ std::map<LabelId, std::size_t> CountLabels(const SimplexLabels& labels)
   return numbers;
 }
 
+/** Interface triangles that repairs have made keep the bounds of angles, beside new tetrahedra, too. */
+void ExpectNoSharpFacets(
+  const Triangulation<3>& mesh, const SimplexLabels& plain, const SimplexLabels& given)
+{
+  std::vector<std::set<LabelId>> around(mesh.VertexIdEnd());
+  for (SimplexId s = 0; s < given.size(); ++s)
+  {
+    for (const VertexId v : mesh.GetSimplex(s).V)
+    {
+      if (mesh.IsAlive(s))
+      {
+        around[v].insert(given[s]);
+      }
+    }
+  }
+  for (SimplexId s = 0; s < given.size(); ++s)
+  {
+    const auto& simplex = mesh.GetSimplex(s);
+    for (unsigned i = 0; i < 4; ++i)
+    {
+      const SimplexId n = simplex.N[i];
+      if (mesh.IsAlive(s) && n != None && plain[n] == plain[s] && given[n] < given[s])
+      {
+        const auto corner = [&](unsigned k) { return simplex.V[(i + k) % 4]; };
+        const std::array<double, 3> angles = PlanarAngles(
+          mesh.Position(corner(1)), mesh.Position(corner(2)), mesh.Position(corner(3)));
+        const bool isAtJunction = around[corner(1)].size() > 2 || around[corner(2)].size() > 2 ||
+          around[corner(3)].size() > 2;
+        const ShapeBounds bounds;
+        EXPECT_GE(*std::min_element(angles.begin(), angles.end()),
+          (isAtJunction ? bounds.JunctionFacetAngle : bounds.FacetAngle) - 1e-6);
+      }
+    }
+  }
+}
+
 /**
  * Makes the labels of two equal triangulations again and again, one with one thread and one with three.
  * @return the repaired ridges of all rounds
@@ -137,6 +175,10 @@ std::size_t CheckRounds(std::array<Triangulation<D>*, 2> meshes, const Domain<D>
     ExpectSameRidges(made.NonManifold, FindNonManifoldRidges<D>(mesh, made.Labels));
 
     const SimplexLabels plain = LabelSimplices<D>(mesh, domain);
+    if constexpr (D == 3)
+    {
+      ExpectNoSharpFacets(mesh, plain, made.Labels);
+    }
     places.clear();
     for (SimplexId s = 0; s < plain.size(); ++s)
     {
