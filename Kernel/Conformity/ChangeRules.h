@@ -145,6 +145,14 @@ public:
     return false;
   }
 
+  /** Whether facet i of a simplex may be of an interface after a change; in 4D all may. */
+  bool HasGoodAngles(SimplexId t, unsigned i, const Change& change) const
+  {
+    const Sharpness sharpness = this->SharpnessOf(t, i);
+    return sharpness == Sharpness::Anywhere ||
+      (sharpness == Sharpness::AtJunctionsOnly && this->HasJunction(t, i, change));
+  }
+
 private:
   Facet<D> FacetOf(SimplexId t, unsigned i) const
   {
@@ -350,13 +358,6 @@ private:
       sharpness = Dot(a, b) > this->FacetCosine * lengths ? Sharpness::AtJunctionsOnly : sharpness;
     }
     return sharpness;
-  }
-
-  bool HasGoodAngles(SimplexId t, unsigned i, const Change& change) const
-  {
-    const Sharpness sharpness = this->SharpnessOf(t, i);
-    return sharpness == Sharpness::Anywhere ||
-      (sharpness == Sharpness::AtJunctionsOnly && this->HasJunction(t, i, change));
   }
 
   /** Whether a vertex of a facet is at a junction after a change. */

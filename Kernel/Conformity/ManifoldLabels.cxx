@@ -3,6 +3,7 @@
 #include "Conformity/ManifoldLabels.h"
 
 #include "Base/UninitialisedVector.h"
+#include "Conformity/ChangeRules.h"
 #include "Conformity/InterfaceVertices.h"
 #include "Conformity/RepairNeighbourhood.h"
 #include "Parallel/ParallelCollect.h"
@@ -39,6 +40,8 @@ ManifoldLabels<D> ManifoldLabeller<D>::Take()
 {
   ManifoldLabels<D> made;
   made.New = this->TakeLabels(made.Labels);
+  const Simplices taken = this->TakeBack(made.Labels);
+  made.New.insert(made.New.end(), taken.begin(), taken.end());
   this->Mark(made.Labels, made.New);
   return made;
 }
@@ -109,19 +112,15 @@ void ManifoldLabeller<D>::Mark(const SimplexLabels& labels, const Simplices& cha
   }
 }
 
-/**
- * Gives simplices that are not examined the labels at their circumcentres, and returns them. So it does with
- * those beside them that have been given another label: the bounds that this label keeps are those of
- * facets that are gone.
- */
+/** Gives simplices that are not examined the labels at their circumcentres, and returns them. */
 template <int D>
 auto ManifoldLabeller<D>::TakeLabels(SimplexLabels& labels) const -> Simplices
 {
   const std::size_t ids = this->Source.SimplexIdEnd();
   labels.resize(ids);
-  Simplices fresh = ParallelCollect<SimplexId>(
+  return ParallelCollect<SimplexId>(
     ids, Grain, this->Threads,
-    [&](std::size_t first, std::size_t last, Simplices& some)
+    [&](std::size_t first, std::size_t last, Simplices& fresh)
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
@@ -134,45 +133,67 @@ auto ManifoldLabeller<D>::TakeLabels(SimplexLabels& labels) const -> Simplices
         if (!state.Examined)
         {
           state.Given = LabelAtCentre(this->Source, *this->Options.Surfaces, s);
-          some.push_back(s);
+          fresh.push_back(s);
         }
         labels[s] = state.Given;
       }
     },
     this->Stop);
-  const auto appendOutdated = [&](SimplexId of, Simplices& some)
-  {
-    for (const SimplexId n : this->Source.GetSimplex(of).N)
-    {
-      if (n != None && this->Source.State(n).Examined &&
-        labels[n] != LabelAtCentre(this->Source, *this->Options.Surfaces, n))
-      {
-        some.push_back(n);
-      }
-    }
-  };
-  Simplices outdated = ParallelCollect<SimplexId>(
-    fresh.size(), Grain, this->Threads,
+}
+
+/**
+ * Takes back labels with which a facet beside a new simplex, or where a junction is gone, is too sharp for an interface: to
+ * the facet rule there is none.
+ * @return the simplices that have lost a label
+ */
+template <int D>
+auto ManifoldLabeller<D>::TakeBack(SimplexLabels& labels) const -> Simplices
+{
+  const auto atCentre = [this](SimplexId s)
+  { return LabelAtCentre(this->Source, *this->Options.Surfaces, s); };
+  const Simplices given = ParallelCollect<SimplexId>(
+    labels.size(), Grain, this->Threads,
     [&](std::size_t first, std::size_t last, Simplices& some)
     {
-      for (std::size_t k = first; k < last; ++k)
+      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        appendOutdated(fresh[k], some);
+        if (this->Source.IsAlive(s) && labels[s] != atCentre(s))
+        {
+          some.push_back(s);
+        }
       }
     },
     this->Stop);
-  for (std::size_t k = 0; k < outdated.size(); ++k)
+  const repair::Neighbourhood<D> near(this->Source, labels);
+  const repair::ChangeRules<D> rules(near, labels, this->Options);
+  const auto isTooSharp = [&](SimplexId s)
   {
-    const SimplexId s = outdated[k];
-    SimplexState& state = this->Source.State(s);
-    if (std::exchange(state.Examined, false))
+    const auto& beside = this->Source.GetSimplex(s).N;
+    for (unsigned i = 0; i <= D; ++i)
     {
-      labels[s] = state.Given = LabelAtCentre(this->Source, *this->Options.Surfaces, s);
-      fresh.push_back(s);
-      appendOutdated(s, outdated);
+      if (beside[i] != None && labels[beside[i]] != labels[s] &&
+        atCentre(beside[i]) == atCentre(s) && !rules.HasGoodAngles(s, i, {}))
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  Simplices taken;
+  for (std::size_t before = ~0u; taken.size() != before;)
+  {
+    before = taken.size();
+    for (const SimplexId s : given)
+    {
+      if (labels[s] != atCentre(s) && isTooSharp(s))
+      {
+        this->Source.State(s).Examined = false;
+        this->Source.State(s).Given = labels[s] = atCentre(s);
+        taken.push_back(s);
+      }
     }
   }
-  return fresh;
+  return taken;
 }
 
 /** Returns the simplices that have another label than TakeLabels() gave them. */

@@ -39,10 +39,10 @@ struct ManifoldLabels
  * Each simplex gets the label at its circumcentre. Then ShowHiddenLayers(), JoinPieces() (3D) and
  * RepairManifold() give some of them another label.
  *
- * A simplex keeps the label that it was given (SimplexState::Given) until refinement makes a new one beside it.
- * Then defects are looked for at the simplices that are not Examined: those that are new, those that have lost
- * a label in this way, and those around defects that nothing has mended. Vertices on interfaces are marked in
- * the same way.
+ * A simplex keeps the label that it was given as long as it lives (SimplexState::Given), unless after
+ * further refinement this leaves an interface facet with small angles (3D). Then defects are looked for at
+ * the simplices that are not Examined: those that are new, those that have lost a label in this way, and
+ * those around defects that nothing has mended. Vertices on interfaces are marked in the same way.
  *
  * Not thread safe; uses threads of its own.
  */
@@ -82,6 +82,7 @@ private:
   using Simplices = std::vector<SimplexId>;
 
   Simplices TakeLabels(SimplexLabels& labels) const;
+  Simplices TakeBack(SimplexLabels& labels) const;
   bool AreFew(const Simplices& some) const;
   void Mark(const SimplexLabels& labels, const Simplices& changed);
   Simplices KeepLabels(const ManifoldLabels<D>& made);

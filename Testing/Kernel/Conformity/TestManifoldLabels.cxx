@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// Labels stay with their simplices while there is nothing new beside them, and boundaries are as manifold as if
-// all simplices were looked at.
+// Labels stay with their simplices through further refinement, and boundaries are as manifold as if all
+// simplices were looked at.
 #include "Conformity/ManifoldLabels.h"
 #include "Delaunay/VertexStar.h"
 #include "Domain/ImageDomain.h"
