@@ -475,6 +475,10 @@ Census<D> Join(
   return labels;
 }
 
+/** The sixth powers of lengths are numbers. */
+constexpr double SmallestSpacing = 1e-45;
+constexpr double LargestSpacing = 1e45;
+
 } // namespace
 
 template <int D>
@@ -508,7 +512,9 @@ void CheckGrid(const GridGeometry<D>& grid, std::size_t scalars)
     for (std::size_t c = 0; c < D; ++c)
     {
       const double v = grid.IndexToFrame[r][c];
-      const bool good = r == c ? std::isfinite(v) && v > 0.0 : r < c ? std::isfinite(v) : v == 0.0;
+      const bool good = r == c ? v >= SmallestSpacing && v <= LargestSpacing
+        : r < c                ? std::isfinite(v)
+                               : v == 0.0;
       if (good)
       {
         continue;
@@ -516,8 +522,9 @@ void CheckGrid(const GridGeometry<D>& grid, std::size_t scalars)
       std::ostringstream s;
       if (r == c)
       {
-        s << "The spacing along axis " << r << " is " << v
-          << "; it must be positive and finite. Correct the image's spacing.";
+        s << "The spacing along axis " << r << " is " << v << "; it must be positive, from "
+          << SmallestSpacing << " to " << LargestSpacing
+          << ". Correct the image's spacing, or take another unit.";
       }
       else
       {

@@ -266,7 +266,8 @@ TEST(LabelImage, RejectsBadGrids)
   ExpectInputError([&]
     { Read<short>(scalars, Grid(std::int64_t{ 1 } << 31, std::int64_t{ 1 } << 31, 2)); },
     { "too large", "2147483648" });
-  for (const double bad : { 0.0, -2.0, std::nan(""), std::numeric_limits<double>::infinity() })
+  for (const double bad :
+    { 0.0, -2.0, 1e-90, 1e60, std::nan(""), std::numeric_limits<double>::infinity() })
   {
     GridGeometry<3> grid = Grid(4, 3, 2);
     grid.IndexToFrame[1][1] = bad;
