@@ -21,18 +21,19 @@ from pathlib import Path
 # What a wheel may have: packages whose copyright files were read, and the licence of the part that is used, which is never
 # the GPL only.
 LICENCES = {
-    "Apache-2.0": "liblerc4 libssl3 libtbb12",
-    "BSD-2-Clause": "libaec0 liblz4-1 libopenjp2-7 libsz2",
-    "BSD-3-Clause": "libcharls2 libdouble-conversion3 libgdcm3.0 libhdf5-103-1 libhwloc15 libuuid1 libvtk9.1 libwebp7",
-    "BSD-3-Clause OR GPL-2.0-only": "libzstd1",
-    "BSL-1.0": "libboost1.74-dev",
+    "Apache-2.0": "liblerc4 libssl3 libssl3t64 libtbb12",
+    "BSD-2-Clause": "libaec0 liblz4-1 libopenjp2-7 libsz2 libxxhash0",
+    "BSD-3-Clause": "libcharls2 libdouble-conversion3 libgdcm3.0 libgdcm3.0t64 libhdf5-103-1 libhdf5-310 libhwloc15 "
+                    "libsharpyuv0 libuuid1 libvtk9.1 libvtk9.3 libwebp7",
+    "BSD-3-Clause OR GPL-2.0-only": "libcap2 libzstd1",
+    "BSL-1.0": "libboost1.74-dev libboost1.83-dev",
     "IJG AND BSD-3-Clause AND Zlib": "libjpeg62-turbo",
     "LGPL-2.1-or-later": "libudev1",
     "LGPL-3.0-or-later": "libcgal-dev",
     "LGPL-3.0-or-later OR GPL-2.0-or-later": "libgmp10",
     "LicenseRef-Public-Domain": "liblzma5",
     "MIT": "libdeflate0 libjson-c5 libjsoncpp25 nlohmann-json3-dev",
-    "libpng-2.0": "libpng16-16",
+    "libpng-2.0": "libpng16-16 libpng16-16t64",
     "libtiff": "libtiff6",
 }
 LICENCE_OF = {package: licence for licence, packages in LICENCES.items() for package in packages.split()}
@@ -99,9 +100,9 @@ def add_texts(packages, folder):
 def main(wheel, *stand_ins):
     (information,) = wheel.glob("*.dist-info")
     packages = files_of_packages(list(wheel.glob("*.libs/*")), stand_ins)
-    for package in sorted(packages.keys() - LICENCE_OF.keys()):
-        sys.exit(f"add_licences: the wheel has code of {package}. Read /usr/share/doc/{package}/copyright. If a wheel may "
-                 "have it, add it to LICENCES in Python/wheel/add_licences.py.")
+    if unknown := sorted(packages.keys() - LICENCE_OF.keys()):
+        sys.exit(f"add_licences: the wheel has code of {', '.join(unknown)}. Read /usr/share/doc/PACKAGE/copyright. If a wheel "
+                 "may have it, add it to LICENCES in Python/wheel/add_licences.py.")
     add_texts(packages, information / "licenses")
 
     path = information / "sboms" / "auditwheel.cdx.json"
