@@ -30,6 +30,8 @@
 namespace
 {
 
+constexpr int LettersOfNames = 18;
+
 /** Labels that are searched for, in the order of a column. What is changed in one selected row is changed in all. */
 class ShownLabels : public QSortFilterProxyModel
 {
@@ -97,7 +99,6 @@ pqVoxplexLabelTableWidget::pqVoxplexLabelTableWidget(
   this->View->setModel(shown);
   this->View->header()->setSectionsClickable(true);
   this->View->header()->setStretchLastSection(false);
-  this->View->header()->setSectionResizeMode(pqVoxplexLabelModel::Name, QHeaderView::Stretch);
   this->View->header()->setMinimumSectionSize(20);
   this->View->header()->setSortIndicator(-1, Qt::AscendingOrder); // by label
   this->View->setSortingEnabled(true);
@@ -188,7 +189,13 @@ void pqVoxplexLabelTableWidget::gather()
   this->fitColumns();
 }
 
-/** Without room for the arrow of a sorted column, which only one has. */
+void pqVoxplexLabelTableWidget::resizeEvent(QResizeEvent* event)
+{
+  this->Superclass::resizeEvent(event);
+  this->fitColumns();
+}
+
+/** Names get what is left, and at least LettersOfNames. Only the sorted column has room for its arrow. */
 void pqVoxplexLabelTableWidget::fitColumns()
 {
   QHeaderView* const header = this->View->header();
@@ -206,6 +213,11 @@ void pqVoxplexLabelTableWidget::fitColumns()
   {
     this->View->resizeColumnToContents(header->sortIndicatorSection());
   }
+  const int least = std::min(view->sizeHintForColumn(pqVoxplexLabelModel::Name),
+    LettersOfNames * header->fontMetrics().averageCharWidth());
+  const int left =
+    view->viewport()->width() - header->length() + header->sectionSize(pqVoxplexLabelModel::Name);
+  header->resizeSection(pqVoxplexLabelModel::Name, std::max(left, least));
 }
 
 void pqVoxplexLabelTableWidget::showSummary()

@@ -44,6 +44,7 @@ Q_SIGNALS:
 
 protected:
   void showEvent(QShowEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
 private Q_SLOTS:
   void onDataUpdated(pqPipelineSource* source);

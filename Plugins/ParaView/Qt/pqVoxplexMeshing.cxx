@@ -2,30 +2,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqVoxplexMeshing.h"
 
+#include "vtkImageToSimplexMeshFilter.h"
 #include "vtkSMLabelColorsProxy.h"
 
 #include "pqActiveObjects.h"
 #include "pqApplicationCore.h"
+#include "pqDataRepresentation.h"
 #include "pqPipelineSource.h"
 #include "pqProgressManager.h"
+#include "pqRenderView.h"
 #include "pqServer.h"
 #include "pqServerManagerModel.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkNew.h"
+#include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMSourceProxy.h"
 
 #include <QApplication>
 #include <QInputEvent>
+#include <QTimer>
 #include <QWidget>
 
 namespace
 {
 
-/** Those of the plugin's filters that take long. */
-bool IsMesher(vtkObjectBase* object)
+/** A legend of more names covers half of the view. */
+constexpr std::size_t MostNamesInLegend = 30;
+
+/** A property of sources whose first mesh has been brought into view. */
+constexpr char WasShown[] = "VoxplexWasShown";
+
+/** One of the plugin's filters that take long, if it is in this process, or null. */
+vtkImageToSimplexMeshFilter* MesherOf(pqPipelineSource* source)
 {
-  return object && object->IsA("vtkImageToSimplexMeshFilter");
+  return vtkImageToSimplexMeshFilter::SafeDownCast(source->getProxy()->GetClientSideObject());
 }
 
 /** Whether a proxy is a filter of the plugin, so that the array Label has labels whether or not they have names. */
@@ -33,6 +44,23 @@ bool IsMeshOfOurs(vtkSMProxy* proxy)
 {
   const QString name = proxy->GetXMLName();
   return name == "VoxplexTetMesh" || name == "VoxplexPentatopeMesh";
+}
+
+/** Brings the first mesh of a source into view. */
+void ShowFirst(pqPipelineSource* source, bool hideLegend)
+{
+  auto* const view = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+  pqDataRepresentation* const shown = view ? source->getRepresentation(0, view) : nullptr;
+  auto* const proxy = shown ? vtkSMPVRepresentationProxy::SafeDownCast(shown->getProxy()) : nullptr;
+  if (proxy == nullptr)
+  {
+    return;
+  }
+  if (hideLegend)
+  {
+    proxy->SetScalarBarVisibility(view->getProxy(), false);
+  }
+  view->resetCamera();
 }
 
 } // namespace
@@ -165,11 +193,9 @@ void pqVoxplexMeshing::onAbort()
     pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
   for (pqPipelineSource* source : sources)
   {
-    vtkObjectBase* const object = source->getProxy()->GetClientSideObject();
-    if (IsMesher(object))
+    if (vtkAlgorithm* const mesher = MesherOf(source))
     {
-      // The one that does not execute forgets it when it starts the next time.
-      vtkAlgorithm::SafeDownCast(object)->SetAbortExecute(1);
+      mesher->SetAbortExecute(1); // one that does not execute forgets it when it starts
     }
   }
 }
@@ -181,11 +207,24 @@ void pqVoxplexMeshing::onDataUpdated(pqPipelineSource* source)
   {
     return;
   }
+  if (vtkImageToSimplexMeshFilter* const mesher = MesherOf(source); mesher && mesher->GetAborted())
+  {
+    qWarning(
+      "Meshing was aborted, so there is no mesh. Change a property and press Apply to mesh again.");
+  }
   vtkNew<vtkPVLabelInformation> labels;
   vtkSMLabelColorsProxy::Gather(proxy, 0, labels);
   if (!labels->GetLabels().empty() && labels->GetLabels() != this->Applied)
   {
     this->Applied = labels->GetLabels();
     vtkSMLabelColorsProxy::Apply(labels, proxy->GetSessionProxyManager());
+  }
+  if (IsMeshOfOurs(proxy) && !labels->GetLabels().empty() && !source->property(WasShown).toBool())
+  {
+    source->setProperty(WasShown, true);
+    // Apply makes the representation, and its legend, after this.
+    QTimer::singleShot(0, source,
+      [source, hideLegend = labels->GetLabels().size() > MostNamesInLegend]
+      { ShowFirst(source, hideLegend); });
   }
 }

@@ -33,6 +33,7 @@
 #include <QAbstractButton>
 #include <QApplication>
 #include <QColor>
+#include <QDockWidget>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLineEdit>
@@ -158,6 +159,16 @@ void pqVoxplexWindowTest::testLabelTable()
       "the colour of row " + QString::number(row));
   }
   this->check(textAt(view, 0, Name) == "Precentral_L", "names");
+  if (auto* const dock = this->Window->findChild<QDockWidget*>("propertiesDock"))
+  {
+    this->Window->resizeDocks({ dock }, { 250 }, Qt::Horizontal);
+    this->grab("narrow.png");
+    this->check(view->header()->sectionSize(Name) >
+        view->header()->fontMetrics().horizontalAdvance("Precentral_L"),
+      "there is room for names in a narrow panel");
+    this->Window->resizeDocks({ dock }, { 440 }, Qt::Horizontal);
+    this->wait(300);
+  }
 
   this->search(view, "precentral");
   this->check(view->model()->rowCount() == 2, "a search by name");

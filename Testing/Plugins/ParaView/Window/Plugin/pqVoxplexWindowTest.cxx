@@ -24,8 +24,10 @@
 #include "vtkNew.h"
 #include "vtkPVDataInformation.h"
 #include "vtkPointData.h"
+#include "vtkRenderer.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMRenderViewProxy.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTransferFunctionManager.h"
@@ -61,6 +63,8 @@ const char MeshLabel[] = "Mesh Segmentation (Tetrahedralize)";
 const char SeriesLabel[] = "Mesh Segmentation Series (Space-Time)";
 const char SliceLabel[] = "Space-Time Mesh Slice";
 const char QualityLabel[] = "Segmentation Mesh Quality";
+
+QStringList Messages; ///< of Qt
 
 /** An action's text without the & of its shortcut. */
 QString textOf(const QAction* action)
@@ -331,6 +335,28 @@ void pqVoxplexWindowTest::testMeshing()
     this->apply();
     vtkPVDataInformation* const data = this->Mesher->getOutputPort(0)->getDataInformation();
     this->check(data->GetNumberOfCells() > 10000, "tetrahedra after Apply");
+    this->grab("first.png");
+    this->testFirstView();
+  }
+}
+
+/** The whole mesh is in view, without a legend of 116 names. */
+void pqVoxplexWindowTest::testFirstView()
+{
+  auto* const view = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+  vtkNew<vtkSMTransferFunctionManager> maps;
+  vtkSMProxy* const legend = maps->GetScalarBarRepresentation(this->colorMap(), view->getProxy());
+  this->check(vtkSMPropertyHelper(legend, "Visibility").GetAsInt() == 0, "no legend of 116 names");
+  double bounds[6];
+  this->Mesher->getOutputPort(0)->getDataInformation()->GetBounds(bounds);
+  vtkRenderer* const renderer = view->getRenderViewProxy()->GetRenderer();
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    renderer->SetWorldPoint(
+      bounds[corner & 1], bounds[2 + (corner >> 1 & 1)], bounds[4 + (corner >> 2)], 1.0);
+    renderer->WorldToView();
+    const double* const at = renderer->GetViewPoint();
+    this->check(std::abs(at[0]) < 1.0 && std::abs(at[1]) < 1.0, "the whole mesh is in view");
   }
 }
 
@@ -694,7 +720,13 @@ void pqVoxplexWindowTest::testAbort()
   vtkSMPropertyHelper(this->Mesher->getProxy(), "Delta")
     .Set(0.7); // minutes, if it were not stopped
   vtkSMPropertyHelper(this->Mesher->getProxy(), "NumberOfThreads").Set(1);
+  Messages.clear();
+  const QtMessageHandler handler = qInstallMessageHandler(
+    [](QtMsgType, const QMessageLogContext&, const QString& text) { Messages << text; });
   this->apply();
+  qInstallMessageHandler(handler);
+  this->check(
+    Messages.filter("Meshing was aborted").size() == 1, "the messages say why nothing is there");
   this->check(pressed, "the Abort button can be pressed while the filter executes");
   this->check(this->Mesher->getOutputPort(0)->getDataInformation()->GetNumberOfCells() == 0,
     "nothing comes out of a filter that was stopped");

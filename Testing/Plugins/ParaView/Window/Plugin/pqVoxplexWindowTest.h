@@ -46,6 +46,7 @@ private:
   void testMenu();
   void testQuickLaunch(const QString& typed, const QStringList& expected);
   void testMeshing();
+  void testFirstView();
   void testPanel();
   void testDependentProperties();
   void testLabelTable();
