@@ -88,7 +88,7 @@ std::string Escaped(const std::string& name)
   return text;
 }
 
-void PutLabels(std::ostream& header, const io::LabelTable& table)
+void PutLabels(std::ostream& header, const LabelTable& table)
 {
   int number = 0;
   for (const auto& [value, entry] : table.Entries)
@@ -135,7 +135,7 @@ std::string Header(vtkSegmentationReader* reader, vtkImageData* image)
     }
     header << '\n';
   }
-  PutLabels(header, io::GetLabelTable(image->GetFieldData()));
+  PutLabels(header, GetLabelTable(image->GetFieldData()));
   header << '\n';
   return header.str();
 }

@@ -16,7 +16,7 @@ namespace
 
 /** The labels with a name for which the predicate holds. */
 template <typename TPredicate>
-std::vector<std::int64_t> LabelsWhere(const io::LabelTable& table, TPredicate&& holds)
+std::vector<std::int64_t> LabelsWhere(const LabelTable& table, TPredicate&& holds)
 {
   std::vector<std::int64_t> labels;
   for (const auto& [label, entry] : table.Entries)
@@ -30,7 +30,7 @@ std::vector<std::int64_t> LabelsWhere(const io::LabelTable& table, TPredicate&& 
 }
 
 /** The labels with a name; those whose name differs in the case of letters only if there are no others. */
-std::vector<std::int64_t> LabelsCalled(const std::string& name, const io::LabelTable& table)
+std::vector<std::int64_t> LabelsCalled(const std::string& name, const LabelTable& table)
 {
   std::vector<std::int64_t> labels =
     LabelsWhere(table, [&name](const std::string& other) { return other == name; });
@@ -44,7 +44,7 @@ std::vector<std::int64_t> LabelsCalled(const std::string& name, const io::LabelT
 }
 
 /** "; did you mean 'Tibia' (3) or 'Fibula' (4)?", the nearest first, or a hint where to find names. */
-std::string Suggest(const std::string& name, const io::LabelTable& table)
+std::string Suggest(const std::string& name, const LabelTable& table)
 {
   constexpr std::size_t most = 5;
   const std::string lower = io::LowerCase(name);
@@ -78,8 +78,7 @@ std::string Suggest(const std::string& name, const io::LabelTable& table)
 }
 
 /** @throws UsageError */
-std::int64_t ToLabel(
-  const std::string& option, const std::string& text, const io::LabelTable& table)
+std::int64_t ToLabel(const std::string& option, const std::string& text, const LabelTable& table)
 {
   if (const auto number = ParseLabelNumber(option, text))
   {
@@ -112,8 +111,7 @@ std::int64_t ToLabel(
 }
 
 /** Those of 3-7, or one. @throws UsageError */
-void AddLabels(
-  const std::string& text, const io::LabelTable& table, std::vector<std::int64_t>& labels)
+void AddLabels(const std::string& text, const LabelTable& table, std::vector<std::int64_t>& labels)
 {
   constexpr std::int64_t most = 100'000;
   const std::size_t dash = text.find('-');
@@ -138,7 +136,7 @@ void AddLabels(
 }
 
 std::map<std::int64_t, double> ToSizes(
-  const std::string& option, const std::vector<LabelSizeText>& texts, const io::LabelTable& table)
+  const std::string& option, const std::vector<LabelSizeText>& texts, const LabelTable& table)
 {
   std::map<std::int64_t, double> sizes;
   for (const LabelSizeText& size : texts)
@@ -153,7 +151,7 @@ std::map<std::int64_t, double> ToSizes(
 }
 
 /** The one or two labels of --interface-size: a name that has commas, or what commas separate. */
-std::vector<std::string> LabelsOfInterface(const std::string& text, const io::LabelTable& table)
+std::vector<std::string> LabelsOfInterface(const std::string& text, const LabelTable& table)
 {
   std::vector<std::string> labels =
     LabelsCalled(text, table).size() == 1 ? std::vector{ text } : SplitAtCommas(text);
@@ -166,7 +164,7 @@ std::vector<std::string> LabelsOfInterface(const std::string& text, const io::La
   return labels;
 }
 
-void TakeInterfaceSizes(const Parameters& p, const io::LabelTable& table, LabelSelection& selection)
+void TakeInterfaceSizes(const Parameters& p, const LabelTable& table, LabelSelection& selection)
 {
   for (const InterfaceSizeText& size : p.InterfaceSizeTexts)
   {
@@ -221,7 +219,7 @@ bool HasNames(const Parameters& p)
       });
 }
 
-LabelSelection SelectLabels(const Parameters& p, const io::LabelTable& table)
+LabelSelection SelectLabels(const Parameters& p, const LabelTable& table)
 {
   LabelSelection selection;
   std::vector<std::int64_t>& labels = selection.Labels;
@@ -249,7 +247,7 @@ LabelSelection SelectLabels(const Parameters& p, const io::LabelTable& table)
   return selection;
 }
 
-void SelectRepairs(const Parameters& p, const io::LabelTable& table, LabelSelection& selection)
+void SelectRepairs(const Parameters& p, const LabelTable& table, LabelSelection& selection)
 {
   selection.Thicknesses = ToSizes("min-thickness", p.ThicknessTexts, table);
   selection.Shells = ToSizes("shell", p.ShellTexts, table);

@@ -43,11 +43,11 @@ bool HasNames(const Parameters& parameters);
  * @throws UsageError: no label has this name, or several have; a label or an interface is given two sizes, or one
  *   although it is not to be meshed
  */
-LabelSelection SelectLabels(const Parameters& parameters, const io::LabelTable& table);
+LabelSelection SelectLabels(const Parameters& parameters, const LabelTable& table);
 
 /** As SelectLabels(), for what is done to the image before: its shells have names afterwards. */
 void SelectRepairs(
-  const Parameters& parameters, const io::LabelTable& table, LabelSelection& selection);
+  const Parameters& parameters, const LabelTable& table, LabelSelection& selection);
 
 } // namespace voxplex::cli
 

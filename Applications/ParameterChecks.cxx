@@ -134,8 +134,8 @@ void CheckTogether(const Parameters& p)
   CheckFiles(p);
   if (!HasNames(p))
   {
-    LabelSelection selection = SelectLabels(p, io::LabelTable());
-    SelectRepairs(p, io::LabelTable(), selection);
+    LabelSelection selection = SelectLabels(p, LabelTable());
+    SelectRepairs(p, LabelTable(), selection);
   }
 }
 

@@ -30,7 +30,7 @@ namespace voxplex::cli
 struct LabelReport
 {
   LabelSelection Selection;
-  io::LabelTable Names;
+  LabelTable Names;
   std::string Source; ///< the file that the names are from; may be empty
 };
 

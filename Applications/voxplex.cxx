@@ -314,7 +314,7 @@ std::set<std::int64_t> AllLabels(vtkSegmentationReader* reader)
 }
 
 /** A label may be absent from frames, but not from all; shells have the same labels in all of them. */
-void PrepareForFrames(const Parameters& p, const io::LabelTable& names, const MeshingInput& input)
+void PrepareForFrames(const Parameters& p, const LabelTable& names, const MeshingInput& input)
 {
   const std::set<std::int64_t> labels = AllLabels(input.Labels);
   const auto require = [&](const std::string& flag, const std::map<std::int64_t, double>& lengths)
@@ -338,7 +338,7 @@ void PrepareForFrames(const Parameters& p, const io::LabelTable& names, const Me
 /** Puts a filter behind the reader if one is needed. */
 void RepairImage(const Parameters& p, MeshingInput& input)
 {
-  const io::LabelTable names = io::GetLabelTable(input.Labels->GetOutput()->GetFieldData());
+  const LabelTable names = GetLabelTable(input.Labels->GetOutput()->GetFieldData());
   SelectRepairs(p, names, input.Selection);
   input.Repair = MakeRepair(p.Values, input.Selection, p.Words);
   if (!input.Repair)
@@ -427,7 +427,7 @@ RepairReport ReportRepair(const Parameters& p, const MeshingInput& input)
 }
 
 /** Names of labels of the image, and the labels that are asked for. */
-io::LabelTable NameLabels(const Parameters& p, MeshingInput& input)
+LabelTable NameLabels(const Parameters& p, MeshingInput& input)
 {
   if (!input.Labels)
   {
@@ -436,10 +436,10 @@ io::LabelTable NameLabels(const Parameters& p, MeshingInput& input)
   vtkFieldData* const fields = input.Labels->GetOutput()->GetFieldData();
   if (p.Has("isovalue")) // a table beside the image is about other numbers
   {
-    io::SetLabelTable(fields, {});
+    SetLabelTable(fields, {});
   }
   RepairImage(p, input);
-  io::LabelTable names = io::GetLabelTable(input.Image()->GetFieldData());
+  LabelTable names = GetLabelTable(input.Image()->GetFieldData());
   LabelSelection selection = SelectLabels(p, names);
   selection.Thicknesses = input.Selection.Thicknesses;
   selection.Shells = input.Selection.Shells;
@@ -486,25 +486,6 @@ void ConvertInterfaces(const Parameters& p)
 
 using Filter = vtkSmartPointer<vtkImageToSimplexMeshFilter>;
 
-/** Leaves out names of labels that the mesh has not. */
-void KeepNamesOf(const MeshWithInterfaces& mesh)
-{
-  io::LabelTable table = io::GetLabelTable(mesh.Mesh->GetFieldData());
-  vtkDataArray* const labels = mesh.Mesh->GetCellData()->GetArray("Label");
-  std::set<std::int64_t> present;
-  for (vtkIdType cell = 0; !table.Entries.empty() && cell < mesh.Mesh->GetNumberOfCells(); ++cell)
-  {
-    present.insert(static_cast<std::int64_t>(labels->GetComponent(cell, 0)));
-  }
-  std::erase_if(
-    table.Entries, [&present](const auto& entry) { return !present.contains(entry.first); });
-  for (vtkDataObject* const part :
-    { vtkDataObject::SafeDownCast(mesh.Mesh), mesh.Interfaces.Get() })
-  {
-    io::SetLabelTable(part->GetFieldData(), table);
-  }
-}
-
 /** Gives `mesh` what the filter has made. */
 Filter MakeMesh(const Parameters& p, const MeshingInput& input, MeshWithInterfaces& mesh)
 {
@@ -512,7 +493,6 @@ Filter MakeMesh(const Parameters& p, const MeshingInput& input, MeshWithInterfac
     CompleteOrExit(p, [&](const ProgressFunction& progress) { return Mesh(p, input, progress); });
   mesh.Mesh = filter->GetOutput();
   mesh.Interfaces = filter->GetOutputDataObject(1);
-  KeepNamesOf(mesh);
   return filter;
 }
 
@@ -550,7 +530,7 @@ void WriteFiles(const Parameters& p, const MeshingInput& input, const MeshWithIn
 /** Of the run that made the mesh, with what was measured; of a mesh that was there the latter alone. */
 nlohmann::ordered_json Report(const Parameters& p, const MeshingInput& input,
   const MeshWithInterfaces& mesh, const Filter& filter, const InputOutputTimes& times,
-  const io::LabelTable& names)
+  const LabelTable& names)
 {
   nlohmann::ordered_json measurement = MeasureMesh(p, input, mesh);
   if (!filter)
@@ -582,7 +562,7 @@ void Run(const Parameters& p)
   MeshWithInterfaces mesh = ReadMesh(p, input);
   times.Read = reading.Seconds();
 
-  const io::LabelTable names = NameLabels(p, input);
+  const LabelTable names = NameLabels(p, input);
   const int dimension = mesh.Mesh ? mesh.Dimension() : input.Dimension();
   CheckDimension(p, dimension);
   const std::optional<SliceFiles> slices = AnnounceSlices(files, p, input, mesh);

@@ -68,6 +68,7 @@ vtk_module_add_module(VTK::Voxplex
     ${voxplex_filters}/Private/SmpThreads.cxx
     ${voxplex_filters}/Private/ThinRidges.cxx
     ${voxplex_root}/Segmentation/HiddenVoxels.cxx
+    ${voxplex_root}/Segmentation/LabelTable.cxx
     $<TARGET_OBJECTS:VoxplexExact>
     $<FILTER:$<TARGET_OBJECTS:VoxplexKernel>,EXCLUDE,[.]gch$> # a precompiled header is no object
     $<TARGET_OBJECTS:VoxplexParameters>)

@@ -70,8 +70,8 @@
  * Where the first or the last frame cuts an object, the mesh ends exactly at that frame's time, and
  * its boundary there is flat.
  *
- * The field data of port 0 (of the last frame) is passed to both outputs, except the array
- * `TimeValue`, which is the time of one frame.
+ * The field data of port 0 (of the last frame) is passed to both outputs, with names of the labels that
+ * the mesh has, and without the array `TimeValue`, which is the time of one frame.
  *
  * @par Time in the pipeline
  * Both outputs announce the times of the first and the last frame as `TIME_RANGE`, and as

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkImageToSimplexMeshFilter.h"
 
+#include "LabelTable.h"
 #include "MeshingParameters.h"
 #include "Private/Execution.h"
 #include "Private/Lists.h"
@@ -9,7 +10,9 @@
 #include "Private/SimplexMeshRun.h"
 
 #include "vtkCellData.h"
+#include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
@@ -18,6 +21,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <limits>
+#include <set>
 
 namespace
 {
@@ -50,6 +54,19 @@ void CheckSize(double size, const std::string& what)
   using Limits = std::numeric_limits<double>;
   voxplex::CheckRange(
     size, Limits::denorm_min(), Limits::max(), what.c_str(), "positive and finite");
+}
+
+/** Leaves out the names of labels that a mesh has not. @param labels of its cells */
+voxplex::LabelTable NamesOf(voxplex::LabelTable table, vtkDataArray* labels)
+{
+  std::set<std::int64_t> present;
+  for (vtkIdType cell = 0; !table.Entries.empty() && cell < labels->GetNumberOfTuples(); ++cell)
+  {
+    present.insert(static_cast<std::int64_t>(labels->GetComponent(cell, 0)));
+  }
+  std::erase_if(
+    table.Entries, [&present](const auto& entry) { return !present.contains(entry.first); });
+  return table;
 }
 
 /** The labels of an interface, in the order of the table: the larger first, so ANY_LABEL comes last. */
@@ -406,14 +423,21 @@ int vtkImageToSimplexMeshFilter::RequestData(
   this->Aborted = this->Aborted && this->ErrorMessage.empty();
   if (this->ErrorMessage.empty() && !this->Aborted)
   {
-    vtkFieldData* fields = vtkDataObject::GetData(inputVector[0])->GetFieldData();
+    vtkFieldData* const fields = vtkDataObject::GetData(inputVector[0])->GetFieldData();
+    const voxplex::LabelTable names = voxplex::GetLabelTable(fields);
+    const voxplex::LabelTable namesOfMesh =
+      NamesOf(names, vtkDataSet::GetData(outputVector)->GetCellData()->GetArray("Label"));
     for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
     {
-      vtkDataObject::GetData(outputVector, port)->GetFieldData()->PassData(fields);
+      vtkFieldData* const passed = vtkDataObject::GetData(outputVector, port)->GetFieldData();
+      passed->PassData(fields);
+      if (!names.Entries.empty()) // there may be colours alone
+      {
+        voxplex::SetLabelTable(passed, namesOfMesh);
+      }
     }
-    for (const std::string& warning :
-      voxplex::WarningsOf(this->Private->Statistics->Edit(), voxplex::LabelNames(fields),
-        this->GetContentionManagerAsString(), this->ExactComponents))
+    for (const std::string& warning : voxplex::WarningsOf(this->Private->Statistics->Edit(),
+           names.Names(), this->GetContentionManagerAsString(), this->ExactComponents))
     {
       this->Private->Warnings.push_back(InTermsOf(this->Vocabulary, warning));
       vtkWarningMacro(<< this->Private->Warnings.back());

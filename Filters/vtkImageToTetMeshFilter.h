@@ -40,7 +40,7 @@
  *     of the first label, into the second.
  *   - Point array `PointIds` (1 component, vtkIdTypeArray): the index of the point in port 0.
  *
- * The field data of port 0 is passed to both outputs.
+ * The field data of port 0 is passed to both outputs, with names of the labels that the mesh has.
  *
  * @par Parameters
  * Those of vtkImageToSimplexMeshFilter and those below. Its documentation also explains element

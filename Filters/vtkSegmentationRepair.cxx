@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "Base/NumberText.h"
+#include "LabelTable.h"
 #include "MeshingParameters.h"
 #include "Private/ChosenArray.h"
 #include "Private/Execution.h"
@@ -13,9 +14,7 @@
 
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
-#include "vtkIntArray.h"
 #include "vtkLongLongArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -157,42 +156,12 @@ void AddNames(vtkFieldData* fields, const Names& before, const Names& after)
   {
     return;
   }
-  vtkNew<vtkLongLongArray> large;
-  vtkNew<vtkIntArray> small;
-  const bool isLarge = added.rbegin()->first > std::numeric_limits<int>::max();
-  const vtkSmartPointer<vtkDataArray> values =
-    isLarge ? static_cast<vtkDataArray*>(large) : static_cast<vtkDataArray*>(small);
-  vtkNew<vtkStringArray> names;
-  values->SetName("LabelValues");
-  names->SetName("LabelNames");
-  if (fields->GetArray("LabelValues") && fields->GetAbstractArray("LabelNames"))
-  {
-    values->DeepCopy(fields->GetArray("LabelValues"));
-    names->DeepCopy(fields->GetAbstractArray("LabelNames"));
-  }
-  vtkNew<vtkDoubleArray> colors;
-  const bool hasColors = fields->GetArray("LabelColors") != nullptr;
-  if (hasColors)
-  {
-    colors->DeepCopy(fields->GetArray("LabelColors"));
-  }
+  voxplex::LabelTable table = voxplex::GetLabelTable(fields);
   for (const auto& [label, name] : added)
   {
-    const double value = static_cast<double>(label);
-    values->InsertNextTuple(&value);
-    names->InsertNextValue(name);
-    if (hasColors)
-    {
-      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-      colors->InsertNextTuple3(nan, nan, nan);
-    }
+    table.Entries[label].Name = name;
   }
-  fields->AddArray(values);
-  fields->AddArray(names);
-  if (hasColors)
-  {
-    fields->AddArray(colors);
-  }
+  voxplex::SetLabelTable(fields, table);
 }
 
 void FillTable(const std::vector<RepairRow>& rows, const Names& names, vtkTable* table)
@@ -583,7 +552,7 @@ void vtkSegmentationRepair::Repair(
     const voxplex::ChosenArray array =
       voxplex::ChooseScalars(input, chosen, association, voxplex::ImageContent::Labels, "input",
         " Frames that are components cannot be repaired; give them as steps of time.");
-    const Names before = voxplex::LabelNames(input->GetFieldData());
+    const Names before = voxplex::GetLabelTable(input->GetFieldData()).Names();
     const bool isSeries =
       inputVector[0]->GetInformationObject(0)->Length(Pipeline::TIME_STEPS()) > 1;
     const unsigned threads = voxplex::ThreadsFor(this->NumberOfThreads);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Text.h"
 
+#include "LabelTable.h"
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -62,6 +64,23 @@ bool IsUTF8(std::string_view text)
     text.remove_prefix(first.Length);
   }
   return true;
+}
+
+void LeaveOutOtherTexts(LabelTable& table, std::vector<std::string>& warnings)
+{
+  std::erase_if(table.Entries,
+    [&warnings](const auto& row)
+    {
+      constexpr char escape = '\x1b'; // ISO 2022 changes the character set with it
+      const bool isText =
+        IsUTF8(row.second.Name) && row.second.Name.find(escape) == std::string::npos;
+      if (!isText)
+      {
+        warnings.push_back(
+          "the name of label " + std::to_string(row.first) + " is not in UTF-8, and is not used");
+      }
+      return !isText;
+    });
 }
 
 std::string_view Cut(std::string_view text, std::size_t size)

@@ -14,6 +14,11 @@
 #include <string_view>
 #include <vector>
 
+namespace voxplex
+{
+struct LabelTable;
+}
+
 namespace voxplex::io
 {
 
@@ -37,6 +42,9 @@ Character FirstCharacter(std::string_view text);
 
 /** Whether a text is well-formed UTF-8, without overlong forms and surrogates. */
 bool IsUTF8(std::string_view text);
+
+/** Removes names that are not UTF-8, with a warning for each. */
+void LeaveOutOtherTexts(LabelTable& table, std::vector<std::string>& warnings);
 
 /** The first bytes of a text, at most `size`, without part of a character at the end. */
 std::string_view Cut(std::string_view text, std::size_t size);

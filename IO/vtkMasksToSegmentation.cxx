@@ -40,7 +40,7 @@ namespace
 struct Mask
 {
   vtkImageData* Image;
-  LabelTable::Entry Entry; ///< its name is empty if there is none
+  voxplex::LabelTable::Entry Entry; ///< its name is empty if there is none
 };
 
 /** Of a block; empty if it has none. */
@@ -110,11 +110,11 @@ void FindNames(std::vector<Mask>& masks)
   }
   for (Mask& mask : masks)
   {
-    const LabelTable table = GetLabelTable(mask.Image->GetFieldData());
+    const voxplex::LabelTable table = voxplex::GetLabelTable(mask.Image->GetFieldData());
     const std::string array = NameOfArray(mask.Image);
     if (table.Entries.size() == 1)
     {
-      const LabelTable::Entry& only = table.Entries.begin()->second;
+      const voxplex::LabelTable::Entry& only = table.Entries.begin()->second;
       mask.Entry.Color = only.Color;
       mask.Entry.Name = mask.Entry.Name.empty() ? only.Name : mask.Entry.Name;
     }
@@ -145,7 +145,7 @@ std::vector<Mask> MasksOf(vtkInformationVector* inputs, const std::map<int, std:
 
 voxplex::io::Space SpaceOf(const Mask& mask)
 {
-  const std::vector<std::string> texts = TextsOf(mask.Image->GetFieldData(), "SPACE");
+  const std::vector<std::string> texts = voxplex::TextsOf(mask.Image->GetFieldData(), "SPACE");
   return texts == std::vector<std::string>{ "RAS" } ? Space::RAS : Space::LPS;
 }
 
@@ -329,7 +329,7 @@ int vtkMasksToSegmentation::RequestData(
     vtkImageData* const output = vtkImageData::GetData(outputVector);
     output->ShallowCopy(ToVTKImage(answer.Image, SpaceOf(masks.front())));
     AddSpaceArray(output, SpaceOf(masks.front()));
-    SetLabelTable(output->GetFieldData(), answer.Labels);
+    voxplex::SetLabelTable(output->GetFieldData(), answer.Labels);
     this->Warnings = std::move(answer.Warnings);
   }
   catch (const std::bad_alloc&)

@@ -64,7 +64,7 @@ struct vtkSegmentationReader::Internals
 {
   std::string Path;  ///< the image, or the first of masks
   ScalarImage Image; ///< without voxels as long as nothing was read
-  LabelTable Labels;
+  voxplex::LabelTable Labels;
   std::string LabelSource;
   std::vector<std::string> Files;
   std::vector<std::string> Warnings;
@@ -397,6 +397,6 @@ int vtkSegmentationReader::RequestData(
     output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), image.TimeOf(frame));
   }
   AddSpaceArray(output, space);
-  SetLabelTable(output->GetFieldData(), this->Private->Labels);
+  voxplex::SetLabelTable(output->GetFieldData(), this->Private->Labels);
   return 1;
 }

@@ -7,11 +7,9 @@
 #include "HiddenVoxels.h"
 
 #include "vtkDataObject.h"
-#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
-#include "vtkStringArray.h"
 
 #include <algorithm>
 #include <array>
@@ -235,21 +233,6 @@ double FindVoxelVolume(vtkInformation* input)
     volume *= std::abs(vtkMatrix3x3::Determinant(input->Get(vtkDataObject::DIRECTION())));
   }
   return volume > 0.0 && std::isfinite(volume) ? volume : 0.0;
-}
-
-std::map<std::int64_t, std::string> LabelNames(vtkFieldData* fields)
-{
-  std::map<std::int64_t, std::string> names;
-  vtkDataArray* const values = fields->GetArray("LabelValues");
-  auto* const texts = vtkStringArray::SafeDownCast(fields->GetAbstractArray("LabelNames"));
-  for (vtkIdType i = 0; values && texts && i < values->GetNumberOfTuples(); ++i)
-  {
-    if (i < texts->GetNumberOfValues() && !texts->GetValue(i).empty())
-    {
-      names[static_cast<std::int64_t>(values->GetComponent(i, 0))] = texts->GetValue(i);
-    }
-  }
-  return names;
 }
 
 } // namespace voxplex

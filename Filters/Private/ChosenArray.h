@@ -15,12 +15,10 @@
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
-#include <map>
 #include <stop_token>
 #include <string>
 
 class vtkAbstractArray;
-class vtkFieldData;
 class vtkImageData;
 class vtkInformation;
 
@@ -85,9 +83,6 @@ void AddFrame(const ChosenArray& frame, int component, unsigned threads, FrameSe
  * positive and finite.
  */
 double FindVoxelVolume(vtkInformation* input);
-
-/** The names that an image's field data (arrays LabelValues, LabelNames) gives to labels. */
-std::map<std::int64_t, std::string> LabelNames(vtkFieldData* fields);
 
 } // namespace voxplex
 

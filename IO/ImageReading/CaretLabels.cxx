@@ -3,6 +3,7 @@
 #include "CaretLabels.h"
 
 #include "FileError.h"
+#include "Text.h"
 #include "XMLParser.h"
 
 #include <algorithm>

@@ -6,6 +6,7 @@
 #include "Fields.h"
 #include "Placement.h"
 #include "StoredVoxels.h"
+#include "Text.h"
 #include "TextHeader.h"
 #include "Units.h"
 

@@ -20,12 +20,16 @@
 #include <string>
 #include <string_view>
 
+namespace voxplex
+{
+struct LabelTable;
+}
+
 namespace voxplex::io
 {
 
 class MeshView;
 class TextFile;
-struct LabelTable;
 
 /** What a format allows in a name. */
 struct NameRules

@@ -3,6 +3,7 @@
 #include "AnswerMessage.h"
 
 #include "ImageReading/Placement.h"
+#include "Text.h"
 
 #include <nlohmann/json.hpp>
 

@@ -13,9 +13,9 @@
 namespace
 {
 
-voxplex::io::LabelTable MakeTable()
+voxplex::LabelTable MakeTable()
 {
-  voxplex::io::LabelTable table;
+  voxplex::LabelTable table;
   std::int64_t label = 1;
   for (const char* name : { "Tibia", "tibia", "Femur, left", "Knee", "\xC3\x9C" })
   {
@@ -28,7 +28,7 @@ voxplex::io::LabelTable MakeTable()
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  static const voxplex::io::LabelTable table = MakeTable();
+  static const voxplex::LabelTable table = MakeTable();
   std::istringstream lines(std::string(reinterpret_cast<const char*>(data), size));
   std::vector<std::string> arguments{ "voxplex" };
   for (std::string line; std::getline(lines, line);)

@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::Write(path, data, size);
   try
   {
-    const voxplex::io::LabelTable table = voxplex::io::ReadLabelTableFile(path);
+    const voxplex::LabelTable table = voxplex::io::ReadLabelTableFile(path);
     for (const auto& [label, entry] : table.Entries)
     {
       if (label <= 0 || entry.Name.empty() || !voxplex::io::IsUTF8(entry.Name))

@@ -16,10 +16,10 @@
 #include <cstdlib>
 #include <iostream>
 
-using voxplex::io::GetLabelTable;
-using voxplex::io::LabelTable;
-using voxplex::io::SetLabelTable;
-using voxplex::io::TextsOf;
+using voxplex::GetLabelTable;
+using voxplex::LabelTable;
+using voxplex::SetLabelTable;
+using voxplex::TextsOf;
 
 namespace
 {

@@ -16,6 +16,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <cmath>
+#include <string>
 
 using namespace testing;
 
@@ -130,15 +131,39 @@ void TestStatistics()
 
 void TestFieldData()
 {
-  const auto image = MakeBall(6.0);
+  const auto image = MakeBall(6.0, 7);
   vtkNew<vtkStringArray> space;
   space->SetName("SPACE");
   space->InsertNextValue("LPS");
-  image->GetFieldData()->AddArray(space);
+  vtkNew<vtkIntArray> values;
+  values->SetName("LabelValues");
+  vtkNew<vtkStringArray> names;
+  names->SetName("LabelNames");
+  for (const int label : { 3, 7, 9 })
+  {
+    values->InsertNextValue(label);
+    names->InsertNextValue("label " + std::to_string(label));
+  }
+  for (vtkAbstractArray* const array : { vtkAbstractArray::SafeDownCast(space),
+         vtkAbstractArray::SafeDownCast(values), vtkAbstractArray::SafeDownCast(names) })
+  {
+    image->GetFieldData()->AddArray(array);
+  }
   const auto filter = MakeFilter(image);
   filter->Update();
   CHECK(filter->GetOutput()->GetFieldData()->GetAbstractArray("SPACE") == space);
   CHECK(filter->GetInterfaces()->GetFieldData()->GetAbstractArray("SPACE") == space);
+  for (vtkDataObject* const part :
+    { filter->GetOutputDataObject(0), filter->GetOutputDataObject(1) })
+  {
+    vtkFieldData* const fields = part->GetFieldData();
+    auto* const ofMesh = vtkStringArray::SafeDownCast(fields->GetAbstractArray("LabelNames"));
+    CHECK(ofMesh && ofMesh->GetNumberOfValues() == 1 && ofMesh->GetValue(0) == "label 7" &&
+        fields->GetArray("LabelValues")->GetTuple1(0) == 7,
+      "names of labels that the mesh has");
+  }
+  CHECK(image->GetFieldData()->GetAbstractArray("LabelNames") == names &&
+    names->GetNumberOfValues() == 3);
 }
 
 } // namespace

@@ -11,10 +11,8 @@
  * - `LabelColors`: vtkDoubleArray, red, green and blue in [0, 1]; NaN where a label has no colour.
  *   Missing if none has.
  */
-#ifndef voxplex_io_LabelTable_h
-#define voxplex_io_LabelTable_h
-
-#include "Text.h"
+#ifndef voxplex_LabelTable_h
+#define voxplex_LabelTable_h
 
 #include <array>
 #include <cstdint>
@@ -25,7 +23,7 @@
 
 class vtkFieldData;
 
-namespace voxplex::io
+namespace voxplex
 {
 
 /** Labels are positive and have names. */
@@ -40,6 +38,7 @@ struct LabelTable
 
   /** Empty if the label is not listed. */
   const std::string& NameOf(std::int64_t label) const;
+  std::map<std::int64_t, std::string> Names() const;
 };
 
 /**
@@ -54,12 +53,9 @@ std::vector<std::string> TextsOf(vtkFieldData* fields, const char* name);
  */
 LabelTable GetLabelTable(vtkFieldData* fields);
 
-/** Removes names that are not UTF-8, with a warning for each. */
-void LeaveOutOtherTexts(LabelTable& table, std::vector<std::string>& warnings);
-
 /** Replaces the table in a data object's field data. An empty one leaves no arrays. */
 void SetLabelTable(vtkFieldData* fields, const LabelTable& table);
 
-} // namespace voxplex::io
+} // namespace voxplex
 
 #endif

@@ -17,7 +17,7 @@
 #include <cmath>
 #include <limits>
 
-namespace voxplex::io
+namespace voxplex
 {
 namespace
 {
@@ -49,6 +49,16 @@ const std::string& LabelTable::NameOf(std::int64_t label) const
   static const std::string none;
   const auto row = this->Entries.find(label);
   return row == this->Entries.end() ? none : row->second.Name;
+}
+
+std::map<std::int64_t, std::string> LabelTable::Names() const
+{
+  std::map<std::int64_t, std::string> names;
+  for (const auto& [label, entry] : this->Entries)
+  {
+    names[label] = entry.Name;
+  }
+  return names;
 }
 
 std::vector<std::string> TextsOf(vtkFieldData* fields, const char* name)
@@ -111,23 +121,6 @@ LabelTable GetLabelTable(vtkFieldData* fields)
   return table;
 }
 
-void LeaveOutOtherTexts(LabelTable& table, std::vector<std::string>& warnings)
-{
-  std::erase_if(table.Entries,
-    [&warnings](const auto& row)
-    {
-      constexpr char escape = '\x1b'; // ISO 2022 changes the character set with it
-      const bool isText =
-        IsUTF8(row.second.Name) && row.second.Name.find(escape) == std::string::npos;
-      if (!isText)
-      {
-        warnings.push_back(
-          "the name of label " + std::to_string(row.first) + " is not in UTF-8, and is not used");
-      }
-      return !isText;
-    });
-}
-
 void SetLabelTable(vtkFieldData* fields, const LabelTable& table)
 {
   for (const char* name : { ValuesName, NamesName, ColorsName })
@@ -160,4 +153,4 @@ void SetLabelTable(vtkFieldData* fields, const LabelTable& table)
   }
 }
 
-} // namespace voxplex::io
+} // namespace voxplex
