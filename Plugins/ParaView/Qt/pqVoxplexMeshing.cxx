@@ -24,6 +24,8 @@
 #include <QTimer>
 #include <QWidget>
 
+#include <algorithm>
+
 namespace
 {
 
@@ -214,7 +216,13 @@ void pqVoxplexMeshing::onDataUpdated(pqPipelineSource* source)
   }
   vtkNew<vtkPVLabelInformation> labels;
   vtkSMLabelColorsProxy::Gather(proxy, 0, labels);
-  if (!labels->GetLabels().empty() && labels->GetLabels() != this->Applied)
+  const auto isApplied = [this](const auto& label)
+  {
+    const auto found = this->Applied.find(label.first);
+    return found != this->Applied.end() && found->second == label.second;
+  };
+  // A mesh may have some of the image's labels only.
+  if (!std::all_of(labels->GetLabels().begin(), labels->GetLabels().end(), isApplied))
   {
     this->Applied = labels->GetLabels();
     vtkSMLabelColorsProxy::Apply(labels, proxy->GetSessionProxyManager());

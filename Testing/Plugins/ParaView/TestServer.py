@@ -46,7 +46,7 @@ def main():
         import voxplex_paraview
 
         voxplex_paraview.apply_label_colors(mesher)
-        check_equal(len(GetColorTransferFunction("Label").Annotations), 2 * 116, "annotations from the server")
+        check_equal(len(GetColorTransferFunction("Label").Annotations), 2 * 115, "annotations from the server")
         check_equal(pairs(GetColorTransferFunction("Label").Annotations)["5"], "Frontal_Sup_Orb_L", "the atlas's names")
 
         named = MeshSegmentationTetrahedralize(Input=XMLImageDataReader(FileName=[write_named_image()]))
