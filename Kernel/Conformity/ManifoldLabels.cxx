@@ -40,8 +40,11 @@ ManifoldLabels<D> ManifoldLabeller<D>::Take()
 {
   ManifoldLabels<D> made;
   made.New = this->TakeLabels(made.Labels);
-  const Simplices taken = this->TakeBack(made.Labels);
-  made.New.insert(made.New.end(), taken.begin(), taken.end());
+  if constexpr (D == 3) // in 4D no facet is too sharp
+  {
+    const Simplices taken = this->TakeBack(made.Labels);
+    made.New.insert(made.New.end(), taken.begin(), taken.end());
+  }
   this->Mark(made.Labels, made.New);
   return made;
 }
@@ -142,8 +145,9 @@ auto ManifoldLabeller<D>::TakeLabels(SimplexLabels& labels) const -> Simplices
 }
 
 /**
- * Takes back labels with which a facet beside a new simplex, or where a junction is gone, is too sharp for an interface: to
- * the facet rule there is none.
+ * Takes labels back that repairs have given, where an interface facet is too sharp. Repairs do not make such a facet.
+ * But refinement makes new ones beside the simplex, and takes junctions away. Its facet rule does not judge this one, since
+ * the labels at both circumcentres are the same.
  * @return the simplices that have lost a label
  */
 template <int D>
@@ -180,9 +184,9 @@ auto ManifoldLabeller<D>::TakeBack(SimplexLabels& labels) const -> Simplices
     return false;
   };
   Simplices taken;
-  for (std::size_t before = ~0u; taken.size() != before;)
+  for (bool isAgain = true; isAgain;) // what is taken may make facets beside it sharp
   {
-    before = taken.size();
+    isAgain = false;
     for (const SimplexId s : given)
     {
       if (labels[s] != atCentre(s) && isTooSharp(s))
@@ -190,6 +194,7 @@ auto ManifoldLabeller<D>::TakeBack(SimplexLabels& labels) const -> Simplices
         this->Source.State(s).Examined = false;
         this->Source.State(s).Given = labels[s] = atCentre(s);
         taken.push_back(s);
+        isAgain = true;
       }
     }
   }

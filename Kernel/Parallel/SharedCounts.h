@@ -64,9 +64,6 @@ public:
   /** The place of the next entry of a list. */
   std::uint32_t Next(std::size_t list) { return this->CountUp(this->Places[list]); }
 
-  /** Whether the entries of a list are in the order of the second loop. */
-  bool IsInOrder() const { return this->IsAlone; }
-
   // After the second loop: the places of a list's entries are BeginOf() ... EndOf() - 1.
   std::uint32_t BeginOf(std::size_t list) const { return list == 0 ? 0u : this->Places[list - 1]; }
   std::uint32_t EndOf(std::size_t list) const { return this->Places[list]; }
