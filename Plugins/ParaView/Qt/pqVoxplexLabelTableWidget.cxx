@@ -30,6 +30,7 @@
 namespace
 {
 
+/** A narrow panel shows this much of a name. */
 constexpr int LettersOfNames = 18;
 
 /** Labels that are searched for, in the order of a column. What is changed in one selected row is changed in all. */

@@ -48,7 +48,7 @@ bool IsMeshOfOurs(vtkSMProxy* proxy)
   return name == "VoxplexTetMesh" || name == "VoxplexPentatopeMesh";
 }
 
-/** Brings the first mesh of a source into view. */
+/** Brings the first mesh of a source into view. Beside other data the camera stays where the user has put it. */
 void ShowFirst(pqPipelineSource* source, bool hideLegend)
 {
   auto* const view = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
@@ -62,7 +62,14 @@ void ShowFirst(pqPipelineSource* source, bool hideLegend)
   {
     proxy->SetScalarBarVisibility(view->getProxy(), false);
   }
-  view->resetCamera();
+  const QList<pqRepresentation*> all = view->getRepresentations();
+  const bool isAlone = std::none_of(all.begin(), all.end(),
+    [shown](pqRepresentation* other)
+    { return other != shown && qobject_cast<pqDataRepresentation*>(other) && other->isVisible(); });
+  if (isAlone)
+  {
+    view->resetCamera();
+  }
 }
 
 } // namespace

@@ -13,7 +13,7 @@
  * - Names and colours of labels: when a filter of the plugin has made a mesh, or when a source has data that carries them, the colour maps of the arrays
  *   `Label` and `Labels` get them (vtkSMLabelColorsProxy). This happens once for each table of labels, so that what the user
  *   changes in a colour map stays.
- * - The first mesh of a filter is brought into view, without its legend if that has more than 30 names.
+ * - The first mesh of a filter is brought into view if it is alone there, without its legend if that has more than 30 names.
  * - After an abort the messages say why there is no mesh.
  */
 #ifndef pqVoxplexMeshing_h

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPVLabelInformation.h"
 
+#include "LabelTable.h"
+
 #include "vtkAlgorithm.h"
 #include "vtkAlgorithmOutput.h"
 #include "vtkClientServerStream.h"
@@ -13,43 +15,12 @@
 #include "vtkImageToSimplexMeshFilter.h"
 #include "vtkMultiProcessStream.h"
 #include "vtkObjectFactory.h"
-#include "vtkStringArray.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 vtkStandardNewMacro(vtkPVLabelInformation);
-
-namespace
-{
-
-/** Of an array of strings, or of bytes with a 0 at the end of each, as in `.vtu` and `.vtk` files of Voxplex. */
-std::vector<std::string> TextsOf(vtkAbstractArray* array)
-{
-  std::vector<std::string> texts;
-  if (auto* const strings = vtkStringArray::SafeDownCast(array))
-  {
-    for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
-    {
-      texts.push_back(strings->GetValue(i));
-    }
-  }
-  else if (auto* const bytes = vtkUnsignedCharArray::SafeDownCast(array))
-  {
-    const unsigned char* begin = bytes->GetPointer(0);
-    const unsigned char* const end = begin + bytes->GetNumberOfValues();
-    for (const auto* zero = std::find(begin, end, 0); zero != end; zero = std::find(begin, end, 0))
-    {
-      texts.emplace_back(begin, zero);
-      begin = zero + 1;
-    }
-  }
-  return texts;
-}
-
-} // namespace
 
 void vtkPVLabelInformation::CopyFromObject(vtkObject* object)
 {
@@ -118,7 +89,7 @@ void vtkPVLabelInformation::ReadTable(vtkFieldData* fields)
     return;
   }
   const vtkIdType count = values->GetNumberOfTuples();
-  const std::vector<std::string> names = TextsOf(fields->GetAbstractArray("LabelNames"));
+  const std::vector<std::string> names = voxplex::TextsOf(fields, "LabelNames");
   vtkDataArray* const colors = fields->GetArray("LabelColors");
   const bool hasNames = static_cast<vtkIdType>(names.size()) == count;
   const bool hasColors =

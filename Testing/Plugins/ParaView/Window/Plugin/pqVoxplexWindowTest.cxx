@@ -56,6 +56,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <vector>
 
 namespace
 {
@@ -515,6 +516,21 @@ void pqVoxplexWindowTest::testColors()
   this->apply();
   this->check(QString(vtkSMPropertyHelper(map, "Annotations").GetAsString(1)) == "liver",
     "names of a file's field data");
+
+  // Beside another mesh, which is shown, the camera stays.
+  const auto place = []
+  {
+    return vtkSMPropertyHelper(
+      pqActiveObjects::instance().activeView()->getProxy(), "CameraPosition")
+      .GetDoubleArray();
+  };
+  const std::vector<double> before = place();
+  pqPipelineSource* const second = builder->createFilter("filters", "VoxplexTetMesh", named);
+  this->apply();
+  this->check(
+    second->getOutputPort(0)->getDataInformation()->GetNumberOfCells() > 0 && place() == before,
+    "the camera stays for a second mesh");
+  builder->destroy(second);
   builder->destroy(named);
   pqActiveObjects::instance().setActiveSource(this->Mesher);
   vtkSMPropertyHelper(this->Mesher->getProxy(), "Delta").Set(4.0);
