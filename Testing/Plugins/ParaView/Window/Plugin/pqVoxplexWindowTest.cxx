@@ -518,18 +518,17 @@ void pqVoxplexWindowTest::testColors()
     "names of a file's field data");
 
   // Beside another mesh, which is shown, the camera stays.
-  const auto place = []
-  {
-    return vtkSMPropertyHelper(
-      pqActiveObjects::instance().activeView()->getProxy(), "CameraPosition")
-      .GetDoubleArray();
-  };
-  const std::vector<double> before = place();
+  vtkSMProxy* const view = pqActiveObjects::instance().activeView()->getProxy();
+  vtkSMPropertyHelper camera(view, "CameraPosition");
+  const double near[] = { 10.0, 20.0, 300.0 };
+  camera.Set(near, 3);
+  view->UpdateVTKObjects();
   pqPipelineSource* const second = builder->createFilter("filters", "VoxplexTetMesh", named);
   this->apply();
-  this->check(
-    second->getOutputPort(0)->getDataInformation()->GetNumberOfCells() > 0 && place() == before,
+  this->check(second->getOutputPort(0)->getDataInformation()->GetNumberOfCells() > 0 &&
+      camera.GetDoubleArray() == std::vector<double>(near, near + 3),
     "the camera stays for a second mesh");
+  pqActiveObjects::instance().activeView()->resetDisplay();
   builder->destroy(second);
   builder->destroy(named);
   pqActiveObjects::instance().setActiveSource(this->Mesher);
