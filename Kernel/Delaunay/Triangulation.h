@@ -309,12 +309,8 @@ public:
     return ball.Radius2 >= 0.0 ? ball : this->ComputeBallExactly(s);
   }
 
-  /** Frees marks and states. Afterwards only vertices and simplices can be read. */
-  void Freeze()
-  {
-    this->Marks.Clear();
-    this->States.Clear();
-  }
+  /** Frees states. Afterwards only vertices and simplices can be read. */
+  void Freeze() { this->States.Clear(); }
 
   const Simplex& GetSimplex(SimplexId s) const { return this->Simplices[s]; }
   const Vertex& GetVertex(VertexId v) const { return this->Vertices[v]; }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file LabelledTriangulation.h
- * @brief The elements of a mesh before it is extracted.
+ * @brief The elements of a mesh before it is made.
  */
 #ifndef voxplex_LabelledTriangulation_h
 #define voxplex_LabelledTriangulation_h
@@ -17,8 +17,8 @@ namespace voxplex
 {
 
 /**
- * @brief The simplices of a triangulation with their labels: the elements that ExtractMesh() makes of
- * them, in another order. Their numbers are the simplex ids.
+ * @brief The simplices of a triangulation with their labels: the elements of the mesh. Their numbers are
+ * the simplex ids.
  */
 template <int D>
 class LabelledTriangulation

@@ -114,7 +114,8 @@ MeshSizeEstimate EstimateSize(const RunEnvironment<D>& run, double distance, dou
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-bool RefineAndExtract(const RunEnvironment<D>& run, RunProgress& progress, ExtractedMesh<D>& mesh)
+bool RefineAndInspect(const RunEnvironment<D>& run, RunProgress& progress,
+  const std::function<bool(std::uint64_t)>& wants, InspectedMesh<D>& mesh)
 {
   MeshSizing<D> sizing(run);
   const SizingField<D> planned(*run.Prepared.Surfaces, sizing.Sources());
@@ -134,7 +135,12 @@ bool RefineAndExtract(const RunEnvironment<D>& run, RunProgress& progress, Extra
     progress.EndRefinement();
     if (!inspection.Inspect())
     {
-      Extract(run, *stage, inspection.Labels(), mesh);
+      const SimplexLabels& labels = inspection.Labels().Labels;
+      if (wants(static_cast<std::uint64_t>(
+            std::count_if(labels.begin(), labels.end(), [](LabelId label) { return label != 0; }))))
+      {
+        mesh = TakeMesh(run, *stage, inspection.Labels());
+      }
       return !run.Stop.stop_requested();
     }
     seeds = inspection.TakeSeeds();
@@ -142,7 +148,9 @@ bool RefineAndExtract(const RunEnvironment<D>& run, RunProgress& progress, Extra
   return false;
 }
 
-template bool RefineAndExtract<3>(const RunEnvironment<3>&, RunProgress&, ExtractedMesh<3>&);
-template bool RefineAndExtract<4>(const RunEnvironment<4>&, RunProgress&, ExtractedMesh<4>&);
+template bool RefineAndInspect<3>(const RunEnvironment<3>&, RunProgress&,
+  const std::function<bool(std::uint64_t)>&, InspectedMesh<3>&);
+template bool RefineAndInspect<4>(const RunEnvironment<4>&, RunProgress&,
+  const std::function<bool(std::uint64_t)>&, InspectedMesh<4>&);
 
 } // namespace voxplex

@@ -11,24 +11,31 @@
 #include "Mesher/RefinementStage.h"
 #include "Mesher/RunProgress.h"
 
+#include <cstdint>
+#include <functional>
+
 namespace voxplex
 {
 
 /**
  * Chooses sampling distances. Refines and inspects the triangulation (Inspection) in turn, until
- * nothing more is needed. Then extracts the mesh, once. FinishMesh() is the next step.
+ * nothing more is needed. FinishMesh() is the next step.
  *
  * @param run its statistics receive all counts and times; their Delta is the sampling distance
- * @param mesh receives the mesh
+ * @param wants is told the number of elements; says whether the mesh is wanted
+ * @param mesh receives the mesh, if it is
  * @return false if stopped
  * @throws Cancelled (a stop may also end in this); TooLargeError; InputError of interface sizes;
  *   std::bad_alloc
  */
 template <int D>
-bool RefineAndExtract(const RunEnvironment<D>& run, RunProgress& progress, ExtractedMesh<D>& mesh);
+bool RefineAndInspect(const RunEnvironment<D>& run, RunProgress& progress,
+  const std::function<bool(std::uint64_t)>& wants, InspectedMesh<D>& mesh);
 
-extern template bool RefineAndExtract<3>(const RunEnvironment<3>&, RunProgress&, ExtractedMesh<3>&);
-extern template bool RefineAndExtract<4>(const RunEnvironment<4>&, RunProgress&, ExtractedMesh<4>&);
+extern template bool RefineAndInspect<3>(const RunEnvironment<3>&, RunProgress&,
+  const std::function<bool(std::uint64_t)>&, InspectedMesh<3>&);
+extern template bool RefineAndInspect<4>(const RunEnvironment<4>&, RunProgress&,
+  const std::function<bool(std::uint64_t)>&, InspectedMesh<4>&);
 
 } // namespace voxplex
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace voxplex
@@ -28,6 +29,31 @@ constexpr unsigned MostGapRounds = 64; ///< if components are to be exact
  * pieces that are seldom missed.
  */
 constexpr double SmallestUsualGap = 27.0;
+
+/**
+ * Tells whether a simplex has a facet on a time plane or on an end of a periodic mesh. Such simplices
+ * keep their labels, so that both sides of the plane have the same ones. Empty if there are no
+ * planes, and in 3D. Both must outlive the result.
+ */
+template <int D>
+std::function<bool(SimplexId)> KeepsItsLabel(
+  const RunEnvironment<D>& run, const Triangulation<D>& mesh)
+{
+  if constexpr (D == 4)
+  {
+    const TimePlanes& planes = run.Prepared.Planes;
+    if (planes.Exist())
+    {
+      return [&mesh, &planes](SimplexId s)
+      {
+        return FacetOnPlane(mesh, s,
+          [&planes](double time) { return planes.AreAt(time) || planes.IsPeriodicEnd(time); })
+          .has_value();
+      };
+    }
+  }
+  return {};
+}
 
 template <int D>
 ManifoldRepairOptions<D> MakeRepairOptions(
@@ -54,26 +80,6 @@ ManifoldRepairOptions<D> MakeRepairOptions(
 }
 
 } // namespace
-
-template <int D>
-std::function<bool(SimplexId)> KeepsItsLabel(
-  const RunEnvironment<D>& run, const Triangulation<D>& mesh)
-{
-  if constexpr (D == 4)
-  {
-    const TimePlanes& planes = run.Prepared.Planes;
-    if (planes.Exist())
-    {
-      return [&mesh, &planes](SimplexId s)
-      {
-        return FacetOnPlane(mesh, s,
-          [&planes](double time) { return planes.AreAt(time) || planes.IsPeriodicEnd(time); })
-          .has_value();
-      };
-    }
-  }
-  return {};
-}
 
 //------------------------------------------------------------------------------------------------
 template <int D>
@@ -216,9 +222,5 @@ void Inspection<D>::Look(bool& isNeeded, Finder finder, double& seconds, const F
 
 template class Inspection<3>;
 template class Inspection<4>;
-template std::function<bool(SimplexId)> KeepsItsLabel<3>(
-  const RunEnvironment<3>&, const Triangulation<3>&);
-template std::function<bool(SimplexId)> KeepsItsLabel<4>(
-  const RunEnvironment<4>&, const Triangulation<4>&);
 
 } // namespace voxplex

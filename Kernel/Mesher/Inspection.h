@@ -15,21 +15,11 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <vector>
 
 namespace voxplex
 {
-
-/**
- * Tells whether a simplex has a facet on a time plane or on an end of a periodic mesh. Such simplices
- * keep their labels, so that both sides of the plane have the same ones. Empty if there are no
- * planes, and in 3D. Both must outlive the result.
- */
-template <int D>
-std::function<bool(SimplexId)> KeepsItsLabel(
-  const RunEnvironment<D>& run, const Triangulation<D>& mesh);
 
 /**
  * @brief Inspects the refined triangulation.
@@ -101,10 +91,6 @@ private:
 
 extern template class Inspection<3>;
 extern template class Inspection<4>;
-extern template std::function<bool(SimplexId)> KeepsItsLabel<3>(
-  const RunEnvironment<3>&, const Triangulation<3>&);
-extern template std::function<bool(SimplexId)> KeepsItsLabel<4>(
-  const RunEnvironment<4>&, const Triangulation<4>&);
 
 } // namespace voxplex
 

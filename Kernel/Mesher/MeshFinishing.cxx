@@ -4,12 +4,9 @@
 
 #include "Base/Stopwatch.h"
 #include "Conformity/MeshTopology.h"
-#include "Conformity/OpenRidges.h"
-#include "Mesh/MeshExtraction.h"
-#include "Mesh/Subdivision.h"
-#include "Mesher/Inspection.h"
 #include "Optimisation/InterfaceFit.h"
 #include "Optimisation/MeshOptimiser.h"
+#include "Optimisation/OpenRidges.h"
 #include "Optimisation/PentatopeOptimiser.h"
 #include "Quality/ComponentGuard.h"
 #include "Quality/LostComponents.h"
@@ -19,7 +16,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 
 namespace voxplex
 {
@@ -101,10 +97,8 @@ std::unique_ptr<const SizingField<D>> MakeSizes(const RunEnvironment<D>& run)
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-FittedPositions<D> Fit(const RunEnvironment<D>& run, const RefinementStage<D>& stage,
-  const ManifoldLabels<D>& labels, const SizingField<D>* sizes)
+void Fit(const RunEnvironment<D>& run, const SizingField<D>* sizes, Complex<D>& complex)
 {
-  ComponentGuard<D> guard = MakeGuard(run);
   FitBounds<D> bounds{ .Image = run.Prepared.OfDomain(), .Planes = run.Prepared.Planes };
   if (D == 4)
   {
@@ -113,26 +107,23 @@ FittedPositions<D> Fit(const RunEnvironment<D>& run, const RefinementStage<D>& s
     bounds.Sizing = sizes;
   }
   bounds.FacetAngle = run.Options.Shape.FacetAngle;
-  bounds.Twins = stage.Twins();
   bounds.Volumes = run.Prepared.Volumes;
-  bounds.Guard = &guard;
-  return FitInterfaces<D>(stage.Mesh(), *run.Prepared.Surfaces, labels.Labels, bounds,
-    run.Options.Team.Threads, run.Stop);
+  FitInterfaces<D>(complex, *run.Prepared.Surfaces, bounds, run.Options.Team.Threads, run.Stop);
 }
 
-/** Fills Twins of the mesh. @param numbers the point of each vertex id, or None */
-void MakeTwins(const RunEnvironment<4>& run, const RefinementStage<4>& stage,
-  std::span<const std::uint32_t> numbers, SimplexMesh<4>& mesh)
+template <int D>
+void Open(const RunEnvironment<D>& run, const SizingField<D>* sizes, InspectedMesh<D>& inspected)
 {
-  for (const auto& [first, last] : stage.Twins())
+  const LabelContacts<D> contacts(run.Prepared.OfDomain());
+  OpeningContext<D> context{ .Sizing = sizes, .Contacts = &contacts };
+  if (D == 4)
   {
-    if (numbers[first] != None && numbers[last] != None)
-    {
-      mesh.Twins.push_back({ numbers[first], numbers[last] });
-    }
+    context.Planes = run.Prepared.Planes;
   }
-  std::sort(mesh.Twins.begin(), mesh.Twins.end());
-  run.Statistics.Planes.Pairs = mesh.Twins.size();
+  const std::size_t left =
+    OpenRidges<D>(inspected.Mesh, *run.Prepared.Surfaces, inspected.NonManifold, context, run.Stop)
+      .size();
+  run.Statistics.Interfaces.CountOpened(inspected.NonManifold.size(), left);
 }
 
 /** Fills Slabs of the mesh. */
@@ -155,10 +146,10 @@ void FindSlabs(const TimePlanes& planes, SimplexMesh<4>& mesh)
 }
 
 //------------------------------------------------------------------------------------------------
-void Optimise(const RunEnvironment<3>& run, ExtractedMesh<3>& extracted)
+void Optimise(const RunEnvironment<3>& run, const SizingField<3>*, ComponentGuard<3>& guard,
+  TetrahedralComplex& complex)
 {
   const MeshingOptions<3>& asked = run.Options;
-  ComponentGuard<3> guard = MakeGuard(run);
   OptimisationOptions options;
   options.Shape = ShapeBounds::With(
     std::max(OptimisedRadiusEdgeRatio, asked.Shape.RadiusEdgeRatio), asked.Shape.FacetAngle);
@@ -166,7 +157,7 @@ void Optimise(const RunEnvironment<3>& run, ExtractedMesh<3>& extracted)
   options.InterfaceTolerance = ToleranceIn3D * run.Statistics.Delta;
   options.Guard = &guard;
   const OptimisationStatistics done =
-    OptimiseMesh(extracted.Mesh, *run.Prepared.Surfaces, options, asked.Team.Threads, run.Stop);
+    OptimiseMesh(complex, *run.Prepared.Surfaces, options, asked.Team.Threads, run.Stop);
   OptimisationSummary& summary = run.Statistics.Optimisation;
   summary.OutOfTime = done.OutOfTime;
   summary.SmallestDihedralBefore = done.Before.SmallestDihedralAngle;
@@ -177,20 +168,18 @@ void Optimise(const RunEnvironment<3>& run, ExtractedMesh<3>& extracted)
   summary.PoorAfter = done.After.Poor;
 }
 
-void Optimise(const RunEnvironment<4>& run, ExtractedMesh<4>& extracted)
+void Optimise(const RunEnvironment<4>& run, const SizingField<4>* sizes, ComponentGuard<4>& guard,
+  PentatopeComplex& complex)
 {
-  const std::unique_ptr<const SizingField<4>> sizes = MakeSizes(run);
-  ComponentGuard<4> guard = MakeGuard(run);
   PentatopeBounds bounds;
   bounds.Target = OptimisedNormalizedVolume;
   bounds.RadiusEdgeRatio = run.Options.Shape.RadiusEdgeRatio;
   bounds.InterfaceTolerance = ToleranceIn4D * run.Prepared.Image.Grid().SmallestSpacing();
-  bounds.Sizing = sizes.get();
+  bounds.Sizing = sizes;
   bounds.Planes = run.Prepared.Planes;
   bounds.Guard = &guard;
-  const PentatopeStatistics done = OptimisePentatopes(extracted.Mesh, extracted.Outside,
-    *run.Prepared.Surfaces, run.Prepared.OfDomain(), bounds, run.Options.Team.Threads, run.Stop);
-  extracted.Outside = {};
+  const PentatopeStatistics done = OptimisePentatopes(complex, *run.Prepared.Surfaces,
+    run.Prepared.OfDomain(), bounds, run.Options.Team.Threads, run.Stop);
   OptimisationSummary& summary = run.Statistics.Optimisation;
   summary.SmallestVolumeBefore = done.SmallestBefore;
   summary.SmallestVolumeAfter = done.SmallestAfter;
@@ -202,70 +191,67 @@ void Optimise(const RunEnvironment<4>& run, ExtractedMesh<4>& extracted)
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-void Extract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
-  const ManifoldLabels<D>& labels, ExtractedMesh<D>& mesh)
+InspectedMesh<D> TakeMesh(
+  const RunEnvironment<D>& run, RefinementStage<D>& stage, const ManifoldLabels<D>& labels)
 {
   const Stopwatch time;
-  const Triangulation<D>& source = stage.Mesh();
-  const Domain<D>& surfaces = *run.Prepared.Surfaces;
-  const unsigned threads = run.Options.Team.Threads;
-  UninitialisedVector<Point<D>> positions; // empty: those of the triangulation
-  OpeningContext<D> context;
-  const std::unique_ptr<const SizingField<D>> sizes = MakeSizes(run);
-  context.Sizing = sizes.get();
-  // In 3D shapes and sizes are left to optimisation.
-  if (run.Options.Interfaces.Fit && (D == 4 || run.Options.Optimisation.Run))
-  {
-    positions = Fit(run, stage, labels, context.Sizing).Positions;
-  }
-  context.Positions = positions;
-  const LabelContacts<D> contacts(run.Prepared.OfDomain());
-  context.Contacts = &contacts;
-  context.Keeps = KeepsItsLabel(run, source);
-  OpenedRidges<D> opened =
-    OpenRidges<D>(source, surfaces, labels.Labels, labels.NonManifold, run.Stop, context);
-  run.Statistics.Interfaces.CountOpened(labels.NonManifold.size(), opened.Left.size());
-  if constexpr (D == 3)
-  {
-    stage.Finish(); // in 4D it is asked which pentatopes are around the mesh
-  }
-  const MeshChanges<D> changes{ positions, std::move(opened.Parts) };
+  stage.Finish();
   UninitialisedVector<std::uint32_t> numbers;
-  ExtractMesh<D>(source, surfaces, labels.Labels, mesh.Mesh, threads, run.Stop, changes, &numbers);
-  if constexpr (D == 4)
+  InspectedMesh<D> mesh{ Complex<D>(stage.Mesh(), labels.Labels, stage.Twins(), numbers,
+                           run.Options.Team.Threads, run.Stop),
+    labels.NonManifold };
+  for (InterfaceRidge<D>& ridge : mesh.NonManifold)
   {
-    MakeTwins(run, stage, numbers, mesh.Mesh);
-    if (run.Options.Optimisation.Run)
+    for (std::uint32_t& v : ridge.Vertices)
     {
-      mesh.Outside = SurroundingsOf(
-        source, labels.Labels, changes.Parts, positions, numbers, mesh.Mesh.Points.size());
+      v = numbers[v];
     }
   }
   run.Statistics.Times.Extraction += time.Seconds();
+  return mesh;
 }
 
 template <int D>
-void FinishMesh(const RunEnvironment<D>& run, ExtractedMesh<D>& mesh)
+void FinishMesh(const RunEnvironment<D>& run, InspectedMesh<D>& inspected, SimplexMesh<D>& mesh)
 {
+  const unsigned threads = run.Options.Team.Threads;
+  Complex<D>& complex = inspected.Mesh;
+  const std::unique_ptr<const SizingField<D>> sizes = MakeSizes(run);
+  ComponentGuard<D> guard = MakeGuard(run);
+  StageTimes& times = run.Statistics.Times;
+  Stopwatch time;
+  // In 3D shapes and sizes are left to optimisation.
+  if (run.Options.Interfaces.Fit && (D == 4 || run.Options.Optimisation.Run))
+  {
+    complex.Protect(&guard, threads, run.Stop);
+    Fit(run, sizes.get(), complex);
+    complex.Protect(nullptr); // opening leaves something of each simplex
+  }
+  Open(run, sizes.get(), inspected);
+  times.Extraction += time.Seconds();
   if (run.Options.Optimisation.Run)
   {
-    const Stopwatch time;
-    Optimise(run, mesh);
+    time = Stopwatch();
+    Optimise(run, sizes.get(), guard, complex);
     run.Statistics.Optimisation.Ran = true;
-    run.Statistics.Times.Optimisation += time.Seconds();
+    times.Optimisation += time.Seconds();
   }
+  time = Stopwatch();
+  complex.Write(run.Prepared.OfDomain().Values(), mesh, threads, run.Stop);
   if constexpr (D == 4)
   {
-    FindSlabs(run.Prepared.Planes, mesh.Mesh);
+    run.Statistics.Planes.Pairs = mesh.Twins.size();
+    FindSlabs(run.Prepared.Planes, mesh);
   }
-  CompareWithImage(run, mesh.Mesh);
+  times.Extraction += time.Seconds();
+  CompareWithImage(run, mesh);
 }
 
-template void Extract<3>(
-  const RunEnvironment<3>&, RefinementStage<3>&, const ManifoldLabels<3>&, ExtractedMesh<3>&);
-template void Extract<4>(
-  const RunEnvironment<4>&, RefinementStage<4>&, const ManifoldLabels<4>&, ExtractedMesh<4>&);
-template void FinishMesh<3>(const RunEnvironment<3>&, ExtractedMesh<3>&);
-template void FinishMesh<4>(const RunEnvironment<4>&, ExtractedMesh<4>&);
+template InspectedMesh<3> TakeMesh<3>(
+  const RunEnvironment<3>&, RefinementStage<3>&, const ManifoldLabels<3>&);
+template InspectedMesh<4> TakeMesh<4>(
+  const RunEnvironment<4>&, RefinementStage<4>&, const ManifoldLabels<4>&);
+template void FinishMesh<3>(const RunEnvironment<3>&, InspectedMesh<3>&, SimplexMesh<3>&);
+template void FinishMesh<4>(const RunEnvironment<4>&, InspectedMesh<4>&, SimplexMesh<4>&);
 
 } // namespace voxplex

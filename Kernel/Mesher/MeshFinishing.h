@@ -10,51 +10,48 @@
 #include "Conformity/ManifoldLabels.h"
 #include "Mesh/SimplexMesh.h"
 #include "Mesher/RefinementStage.h"
-#include "Optimisation/Surroundings.h"
+#include "Optimisation/Complex.h"
+#include "Quality/InterfaceEdges.h"
 
-#include <type_traits>
-#include <variant>
+#include <vector>
 
 namespace voxplex
 {
 
-/** A mesh, and what optimisation needs to know besides. */
+/** The mesh that inspection leaves. */
 template <int D>
-struct ExtractedMesh
+struct InspectedMesh
 {
-  SimplexMesh<D> Mesh;
-  /** 4D: the pentatopes around it, if it is to be optimised. */
-  std::conditional_t<D == 4, Surroundings<4>, std::monostate> Outside;
+  Complex<D> Mesh;
+  std::vector<InterfaceRidge<D>> NonManifold; ///< its ridges that are not manifold
 };
 
 /**
- * Moves the vertices of interfaces so that volumes are right (FitInterfaces), opens the ridges
- * that are not manifold (OpenRidges), and extracts the mesh. The fit keeps all components.
- *
- * @param stage in 3D only the points and the simplices of its mesh can be read afterwards
- * @param mesh receives the mesh
+ * Makes the mesh of a labelled triangulation, which is not needed any more.
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>
-void Extract(const RunEnvironment<D>& run, RefinementStage<D>& stage,
-  const ManifoldLabels<D>& labels, ExtractedMesh<D>& mesh);
+InspectedMesh<D> TakeMesh(
+  const RunEnvironment<D>& run, RefinementStage<D>& stage, const ManifoldLabels<D>& labels);
 
 /**
- * Improves shapes if the options request it, and lists where the mesh differs from the components and contacts of the image.
- * Optimisation loses none that it has. The triangulation is not needed any more.
+ * Moves the vertices of interfaces so that volumes are right (FitInterfaces), opens the ridges that are not
+ * manifold (OpenRidges), improves shapes if the options request it, and writes the mesh. Lists where
+ * it differs from the components and contacts of the image. The fit and optimisation lose no component.
  *
  * @param run its statistics have the sampling distance of the mesh
+ * @param inspected is empty afterwards
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>
-void FinishMesh(const RunEnvironment<D>& run, ExtractedMesh<D>& mesh);
+void FinishMesh(const RunEnvironment<D>& run, InspectedMesh<D>& inspected, SimplexMesh<D>& mesh);
 
-extern template void Extract<3>(
-  const RunEnvironment<3>&, RefinementStage<3>&, const ManifoldLabels<3>&, ExtractedMesh<3>&);
-extern template void Extract<4>(
-  const RunEnvironment<4>&, RefinementStage<4>&, const ManifoldLabels<4>&, ExtractedMesh<4>&);
-extern template void FinishMesh<3>(const RunEnvironment<3>&, ExtractedMesh<3>&);
-extern template void FinishMesh<4>(const RunEnvironment<4>&, ExtractedMesh<4>&);
+extern template InspectedMesh<3> TakeMesh<3>(
+  const RunEnvironment<3>&, RefinementStage<3>&, const ManifoldLabels<3>&);
+extern template InspectedMesh<4> TakeMesh<4>(
+  const RunEnvironment<4>&, RefinementStage<4>&, const ManifoldLabels<4>&);
+extern template void FinishMesh<3>(const RunEnvironment<3>&, InspectedMesh<3>&, SimplexMesh<3>&);
+extern template void FinishMesh<4>(const RunEnvironment<4>&, InspectedMesh<4>&, SimplexMesh<4>&);
 
 } // namespace voxplex
 

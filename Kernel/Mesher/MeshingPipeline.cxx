@@ -64,7 +64,7 @@ public:
     MeshingStatistics& statistics = this->Run.Statistics;
     const MeshingStatistics before = statistics;
     MeshingStatistics best;
-    ExtractedMesh<D> nearest;
+    InspectedMesh<D> nearest;
     while (search.Next())
     {
       const StageTimes times = statistics.Times;
@@ -72,17 +72,19 @@ public:
       statistics.Times = times;
       statistics.Delta = *search.Next();
       this->Progress.BeginOneOfSeveral();
-      ExtractedMesh<D> next;
-      if (!RefineAndExtract<D>(this->Run, this->Progress, next))
+      const auto isNearest = [&](std::uint64_t elements)
+      {
+        search.Add(this->ExpectedElements(elements));
+        return search.Best().Delta == statistics.Delta;
+      };
+      if (!RefineAndInspect<D>(this->Run, this->Progress, isNearest, nearest))
       {
         return false;
       }
       this->Progress.EndOneOfSeveral();
-      search.Add(this->ExpectedElements(next.Mesh));
       if (search.Best().Delta == statistics.Delta)
       {
         best = statistics;
-        nearest = std::move(next);
       }
     }
     best.Times = statistics.Times;
@@ -90,16 +92,9 @@ public:
     statistics = std::move(best);
     if (!search.Found())
     {
-      this->ThrowNotFound(search, search.Best().Elements);
+      this->ThrowNotFound(search);
     }
-    FinishMesh<D>(this->Run, nearest);
-    mesh = std::move(nearest.Mesh);
-    const auto elements = static_cast<double>(mesh.Simplices.size());
-    const auto wanted = static_cast<double>(this->Run.Options.Sampling.Elements);
-    if (std::abs(elements / wanted - 1.0) > DeltaSearch::Tolerance)
-    {
-      this->ThrowNotFound(search, mesh.Simplices.size()); // optimisation left another part of them
-    }
+    FinishMesh<D>(this->Run, nearest, mesh);
     for (MeshingRun& run : statistics.Runs)
     {
       run.Elements = run.Delta == statistics.Delta ? mesh.Simplices.size() : run.Elements;
@@ -134,16 +129,15 @@ private:
   }
 
   /** The expected number of elements after optimisation. */
-  std::uint64_t ExpectedElements(const SimplexMesh<D>& mesh) const
+  std::uint64_t ExpectedElements(std::uint64_t inspected) const
   {
-    const auto elements = static_cast<double>(mesh.Simplices.size());
-    return static_cast<std::uint64_t>(std::llround(
-      this->Run.Options.Optimisation.Run ? elements * ElementsLeftByOptimisation<D> : elements));
+    return static_cast<std::uint64_t>(std::llround(static_cast<double>(inspected) *
+      (this->Run.Options.Optimisation.Run ? ElementsLeftByOptimisation<D> : 1.0)));
   }
 
-  /** @param elements of the nearest mesh */
-  [[noreturn]] void ThrowNotFound(const DeltaSearch& search, std::uint64_t elements) const
+  [[noreturn]] void ThrowNotFound(const DeltaSearch& search) const
   {
+    const std::uint64_t elements = search.Best().Elements;
     const bool isCoarse =
       this->Run.Options.Sampling.Grading.Mode == GradingMode::LocalFeatureSize &&
       elements < this->Run.Options.Sampling.Elements;
@@ -180,13 +174,13 @@ bool RunPipeline(LabelImage<D>& image, const IsosurfaceImage<D>* isosurface,
     {
       return ElementTarget<D>(run, progress).Mesh(mesh);
     }
-    ExtractedMesh<D> extracted;
-    if (!RefineAndExtract<D>(run, progress, extracted))
+    InspectedMesh<D> inspected;
+    if (!RefineAndInspect<D>(
+          run, progress, [](std::uint64_t) { return true; }, inspected))
     {
       return false;
     }
-    FinishMesh<D>(run, extracted);
-    mesh = std::move(extracted.Mesh);
+    FinishMesh<D>(run, inspected, mesh);
     return !stop.stop_requested();
   }
   catch (const Cancelled&)

@@ -20,7 +20,7 @@ namespace voxplex
 {
 
 /**
- * Calls Prepare() once. Then calls RefineAndExtract() with the sampling distance of the options. If
+ * Calls Prepare() once. Then calls RefineAndInspect() with the sampling distance of the options. If
  * the options request a number of elements, tries several sampling distances until it is met
  * (DeltaSearch). Then calls FinishMesh(), once.
  *

@@ -4,14 +4,9 @@
 
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/SharedCounts.h"
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
-#include <mutex>
-#include <numeric>
-#include <type_traits>
 #include <utility>
 
 namespace voxplex
@@ -37,66 +32,276 @@ void Raise(std::uint32_t& number, std::uint32_t to)
   }
 }
 
+/** Marks of what a complex takes. What has none is left out. */
+constexpr std::uint32_t OfObject = 0;
+constexpr std::uint32_t AroundIt = 1;
+
+/** Replaces the marks by numbers, those of the object first. @return the number of marks */
+std::size_t TurnIntoNumbers(
+  UninitialisedVector<std::uint32_t>& marks, unsigned threads, const std::stop_token& stop)
+{
+  std::array<ChunkCounts, 2> counts{ ChunkCounts(marks.size()), ChunkCounts(marks.size()) };
+  ParallelFor(
+    0, marks.size(), ChunkCounts::Grain, threads,
+    [&](std::size_t first, std::size_t end)
+    {
+      std::array<std::size_t, 2> found{}; // counts of several chunks share a cache line
+      for (std::size_t k = first; k < end; ++k)
+      {
+        found[OfObject] += marks[k] == OfObject ? 1 : 0;
+        found[AroundIt] += marks[k] == AroundIt ? 1 : 0;
+      }
+      counts[OfObject].OfChunk(first) = found[OfObject];
+      counts[AroundIt].OfChunk(first) = found[AroundIt];
+    },
+    stop);
+  const std::size_t ofObject = counts[OfObject].TurnIntoPlaces();
+  const std::size_t all = ofObject + counts[AroundIt].TurnIntoPlaces();
+  ParallelFor(
+    0, marks.size(), ChunkCounts::Grain, threads,
+    [&](std::size_t first, std::size_t end)
+    {
+      std::array<std::size_t, 2> next{ counts[OfObject].OfChunk(first),
+        ofObject + counts[AroundIt].OfChunk(first) };
+      for (std::size_t k = first; k < end; ++k)
+      {
+        if (marks[k] != None)
+        {
+          marks[k] = static_cast<std::uint32_t>(next[marks[k]]++);
+        }
+      }
+    },
+    stop);
+  return all;
+}
+
+//------------------------------------------------------------------------------------------------
+/** What a complex is made from: a triangulation. */
+template <int D>
+struct LabelledSimplices
+{
+  const Triangulation<D>& Mesh;
+  std::span<const LabelId> Labels;
+  std::span<const std::array<VertexId, 2>> Twins;
+
+  std::size_t NumberOfCells() const { return this->Labels.size(); }
+  std::size_t NumberOfVertices() const { return this->Mesh.VertexIdEnd(); }
+  bool IsAlive(std::uint32_t t) const { return this->Mesh.IsAlive(t); }
+  LabelId LabelOf(std::uint32_t t) const { return this->Labels[t]; }
+  const auto& CellAt(std::uint32_t t) const { return this->Mesh.GetSimplex(t); }
+  const Point<D>& Position(std::uint32_t v) const { return this->Mesh.Position(v); }
+};
+
+/** What a complex is made from: another one. */
+template <int D>
+struct OldComplex
+{
+  Complex<D> Old;
+  std::vector<std::array<VertexId, 2>> Twins;
+
+  std::size_t NumberOfCells() const { return this->Old.Cells.size(); }
+  std::size_t NumberOfVertices() const { return this->Old.Points.size(); }
+  bool IsAlive(std::uint32_t t) const { return this->Old.IsAlive(t); }
+  LabelId LabelOf(std::uint32_t t) const { return this->IsAlive(t) ? this->Old.Labels[t] : 0; }
+  const auto& CellAt(std::uint32_t t) const { return this->Old.Cells[t]; }
+  const Point<D>& Position(std::uint32_t v) const { return this->Old.Points[v]; }
+};
+
 } // namespace
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-Complex<D>::Complex(const SimplexMesh<D>& mesh, const ShapeFunction& score, unsigned threads,
-  const std::stop_token& stop, std::span<const ScoreValue> scores, const SpareRoom& spare,
-  const Surroundings<D>& outside)
-  : Shape(score)
-  , FirstOutside(mesh.Points.size())
-  , EndOfOutside(mesh.Points.size() + outside.Points.size())
+Complex<D>::Complex(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
+  std::span<const std::array<VertexId, 2>> twins, UninitialisedVector<std::uint32_t>& numbers,
+  unsigned threads, const std::stop_token& stop)
 {
-  const std::size_t points = this->EndOfOutside;
-  const auto fill = [&](auto& of, auto value)
-  {
-    of.reserve(points + spare.Vertices);
-    of.assign(points, value);
-  };
-  this->Points.reserve(points + spare.Vertices);
-  this->Points.assign(mesh.Points.begin(), mesh.Points.end());
-  this->Points.insert(this->Points.end(), outside.Points.begin(), outside.Points.end());
-  fill(this->Kinds, VertexRole::Free);
-  fill(this->Hosts, None);
-  fill(this->Degrees, 0u);
-  fill(this->Changes, 0u);
-  const std::size_t cells = mesh.Simplices.size() + outside.Simplices.size();
-  const auto resize = [&](auto& of)
-  {
-    of.reserve(cells + spare.Cells);
-    of.resize(cells);
-  };
-  resize(this->Cells);
-  resize(this->Labels);
-  resize(this->Scores);
-  this->FindLabels(mesh, threads, stop);
-  this->CopyCells(mesh, outside, threads, stop);
-  if (scores.empty())
-  {
-    this->ScoreCells(threads, stop);
-  }
-  else
-  {
-    std::copy(scores.begin(), scores.end(), this->Scores.begin());
-  }
-  this->Connect(threads, stop);
-  this->FindKinds(threads, stop);
-  this->Twins.resize(mesh.Twins.empty() ? 0 : points, None);
-  for (const auto& [first, last] : mesh.Twins)
-  {
-    this->Twins[first] = last;
-    this->Twins[last] = first;
-  }
+  numbers = this->Copy(LabelledSimplices<D>{ triangulation, labels, twins }, true, threads, stop);
 }
 
 template <int D>
-void Complex<D>::Protect(ComponentGuard<D>& guard, const SimplexMesh<D>& mesh, unsigned threads,
-  const std::stop_token& stop)
+Complex<D>::Complex(UninitialisedVector<Point<D>> points, UninitialisedVector<Cell> cells,
+  UninitialisedVector<Label> labels, unsigned threads, const std::stop_token& stop)
+  : Points(std::move(points))
+  , Cells(std::move(cells))
+  , Labels(std::move(labels))
 {
-  this->Guard = &guard;
-  this->AreHolders = guard.FindHolders(mesh, threads, stop);
-  this->AreHolders.resize(this->AreHolders.empty() ? 0 : this->Cells.size());
+  this->FindHosts(threads, stop);
+}
+
+template <int D>
+void Complex<D>::Compact(bool keepsOutside, unsigned threads, const std::stop_token& stop)
+{
+  OldComplex<D> source;
+  for (std::uint32_t v = 0; v < this->Twins.size(); ++v)
+  {
+    if (v < this->Twins[v] && this->Twins[v] != None)
+    {
+      source.Twins.push_back({ v, this->Twins[v] });
+    }
+  }
+  source.Old = std::exchange(*this, Complex());
+  this->Shape = source.Old.Shape;
+  this->Goal = source.Old.Goal;
+  this->Copy(source, keepsOutside, threads, stop);
+}
+
+/** Copies what the complex is to have. @return the number of each vertex of the source, or None */
+template <int D>
+template <typename Source>
+UninitialisedVector<std::uint32_t> Complex<D>::Copy(
+  const Source& source, bool withOutside, unsigned threads, const std::stop_token& stop)
+{
+  const auto forAll = [&](std::size_t number, const auto& function)
+  {
+    ParallelFor(
+      0, number, Grain, threads,
+      [&](std::size_t first, std::size_t end)
+      {
+        for (auto k = static_cast<std::uint32_t>(first); k < end; ++k)
+        {
+          function(k);
+        }
+      },
+      stop);
+  };
+  UninitialisedVector<std::uint32_t> vertices(source.NumberOfVertices());
+  UninitialisedVector<std::uint32_t> cells(source.NumberOfCells());
+  // Relaxed: threads write the same mark, and the end of the loop orders it before its readers. Reading first
+  // leaves the cache line with the other threads.
+  const auto markOf = [&](std::uint32_t v)
+  { return std::atomic_ref<std::uint32_t>(vertices[v]).load(std::memory_order_relaxed); };
+  const auto mark = [&](std::uint32_t t, std::uint32_t as)
+  {
+    cells[t] = as;
+    for (const std::uint32_t v : source.CellAt(t).V)
+    {
+      if (markOf(v) == None)
+      {
+        std::atomic_ref<std::uint32_t>(vertices[v]).store(as, std::memory_order_relaxed);
+      }
+    }
+  };
+  forAll(vertices.size(), [&](std::uint32_t v) { vertices[v] = None; });
+  forAll(cells.size(),
+    [&](std::uint32_t t)
+    {
+      cells[t] = None;
+      if (source.LabelOf(t) != 0)
+      {
+        mark(t, OfObject);
+      }
+    });
+  if (withOutside)
+  {
+    forAll(cells.size(),
+      [&](std::uint32_t t)
+      {
+        if (cells[t] == None && source.IsAlive(t) &&
+          std::any_of(source.CellAt(t).V.begin(), source.CellAt(t).V.end(),
+            [&](std::uint32_t v) { return markOf(v) == OfObject; }))
+        {
+          mark(t, AroundIt);
+        }
+      });
+  }
+  for (const auto& [first, last] : source.Twins)
+  {
+    if (vertices[first] == OfObject && vertices[last] == OfObject)
+    {
+      this->Twins.resize(vertices.size(), None);
+      this->Twins[first] = last;
+      this->Twins[last] = first;
+    }
+  }
+  this->Points.resize(TurnIntoNumbers(vertices, threads, stop));
+  forAll(vertices.size(),
+    [&](std::uint32_t v)
+    {
+      if (vertices[v] != None)
+      {
+        this->Points[vertices[v]] = source.Position(v);
+      }
+    });
+  if (!this->Twins.empty())
+  {
+    std::vector<std::uint32_t> twins(this->Points.size(), None);
+    for (std::uint32_t v = 0; v < vertices.size(); ++v)
+    {
+      if (this->Twins[v] != None)
+      {
+        twins[vertices[v]] = vertices[this->Twins[v]];
+      }
+    }
+    this->Twins = std::move(twins);
+  }
+  this->Cells.resize(TurnIntoNumbers(cells, threads, stop));
+  this->Labels.resize(this->Cells.size());
+  forAll(cells.size(),
+    [&](std::uint32_t t)
+    {
+      if (cells[t] == None)
+      {
+        return;
+      }
+      Cell& cell = this->Cells[cells[t]];
+      const auto& old = source.CellAt(t);
+      for (unsigned i = 0; i < Corners; ++i)
+      {
+        cell.V[i] = vertices[old.V[i]];
+        cell.N[i] = old.N[i] == None ? None : cells[old.N[i]];
+      }
+      this->Labels[cells[t]] = source.LabelOf(t);
+    });
+  this->FindHosts(threads, stop);
+  return vertices;
+}
+
+/** Finds the last cell of each vertex, and their number. Allocates what vertices and cells have besides. */
+template <int D>
+void Complex<D>::FindHosts(unsigned threads, const std::stop_token& stop)
+{
+  const std::size_t points = this->Points.size();
+  this->Kinds.assign(points, VertexRole::Free);
+  this->Hosts.assign(points, None);
+  this->Degrees.assign(points, 0);
+  this->Changes.assign(points, 0);
+  this->Scores.resize(this->Cells.size());
+  const bool isAlone = NumberOfThreads(threads) == 1;
+  ParallelFor(
+    0, this->Cells.size(), Grain, threads,
+    [&](std::size_t first, std::size_t end)
+    {
+      for (auto t = static_cast<std::uint32_t>(first); t < end; ++t)
+      {
+        for (const std::uint32_t v : this->Cells[t].V)
+        {
+          if (isAlone)
+          {
+            this->Hosts[v] = t;
+            ++this->Degrees[v];
+          }
+          else
+          {
+            Raise(this->Hosts[v], t);
+            std::atomic_ref<std::uint32_t>(this->Degrees[v])
+              .fetch_add(1, std::memory_order_relaxed);
+          }
+        }
+      }
+    },
+    stop);
+}
+
+template <int D>
+void Complex<D>::Protect(ComponentGuard<D>* guard, unsigned threads, const std::stop_token& stop)
+{
+  this->Guard = guard;
+  this->AreHolders.clear();
+  if (guard)
+  {
+    this->AreHolders =
+      guard->FindHolders(LabelledCells<D>(this->Points, this->Cells, this->Labels), threads, stop);
+  }
 }
 
 template <int D>
@@ -109,84 +314,7 @@ bool Complex<D>::KeepsComponents(std::uint32_t t, std::uint32_t v, const Point<D
   const auto before = this->PointsOf(this->Cells[t].V);
   auto after = before;
   after[this->IndexOf(t, v)] = &to;
-  return this->Guard->Keeps(this->LabelInImage(this->Labels[t]), before, after);
-}
-
-template <int D>
-void Complex<D>::FindLabels(
-  const SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop)
-{
-  const auto sort = [](std::vector<std::int64_t>& values)
-  {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-  };
-  std::vector<std::int64_t> all;
-  std::mutex mutex; // guards `all`
-  ParallelFor(
-    0, mesh.Labels.size(), Grain, threads,
-    [&](std::size_t first, std::size_t end)
-    {
-      std::vector<std::int64_t> some{ mesh.Labels[first] };
-      for (std::size_t t = first + 1; t < end; ++t)
-      {
-        if (mesh.Labels[t] != mesh.Labels[t - 1])
-        {
-          some.push_back(mesh.Labels[t]);
-        }
-      }
-      sort(some);
-      const std::scoped_lock lock(mutex);
-      all.insert(all.end(), some.begin(), some.end());
-    },
-    stop);
-  sort(all);
-  this->LabelValues = { 0 };
-  this->LabelValues.insert(this->LabelValues.end(), all.begin(), all.end());
-}
-
-template <int D>
-void Complex<D>::CopyCells(const SimplexMesh<D>& mesh, const Surroundings<D>& outside,
-  unsigned threads, const std::stop_token& stop)
-{
-  const bool isAlone = NumberOfThreads(threads) == 1;
-  ParallelFor(
-    0, this->Cells.size(), Grain, threads,
-    [&](std::size_t first, std::size_t end)
-    {
-      std::int64_t last = 0;
-      Label index = 0;
-      for (std::size_t t = first; t < end; ++t)
-      {
-        const bool isInMesh = t < mesh.Simplices.size();
-        this->Cells[t].V =
-          isInMesh ? mesh.Simplices[t] : outside.Simplices[t - mesh.Simplices.size()];
-        this->Cells[t].N.fill(None);
-        if (const std::int64_t value = isInMesh ? mesh.Labels[t] : 0; value != last)
-        {
-          last = value;
-          const auto begin = this->LabelValues.begin();
-          const auto found = std::lower_bound(begin + 1, this->LabelValues.end(), last);
-          index = isInMesh ? static_cast<Label>(found - begin) : 0;
-        }
-        this->Labels[t] = index;
-        for (const std::uint32_t v : this->Cells[t].V)
-        {
-          if (isAlone)
-          {
-            this->Hosts[v] = static_cast<std::uint32_t>(t);
-            ++this->Degrees[v];
-          }
-          else
-          {
-            Raise(this->Hosts[v], static_cast<std::uint32_t>(t));
-            std::atomic_ref<std::uint32_t>(this->Degrees[v])
-              .fetch_add(1, std::memory_order_relaxed);
-          }
-        }
-      }
-    },
-    stop);
+  return this->Guard->Keeps(this->Labels[t], before, after);
 }
 
 template <int D>
@@ -251,53 +379,6 @@ void Complex<D>::Join(std::uint32_t t, unsigned i, std::vector<OpenFacet>& open)
   this->Cells[same->Cell].N[same->Index] = t;
   *same = open.back();
   open.pop_back();
-}
-
-/** Facets are listed by the sum of their vertices, so that lists are short. */
-template <int D>
-void Complex<D>::Connect(unsigned threads, const std::stop_token& stop)
-{
-  const std::size_t lists = std::bit_ceil(this->Points.size());
-  const auto listOf = [lists](const Vertices& v, unsigned i)
-  {
-    const std::size_t sum = std::accumulate(v.begin(), v.end(), std::size_t{ 0 }) - v[i];
-    return static_cast<std::uint32_t>(sum & (lists - 1));
-  };
-  SharedCounts places(lists, threads, stop);
-  const auto forEachFacet = [&](auto&& visit)
-  {
-    ParallelFor(
-      0, this->Cells.size(), Grain, threads,
-      [&](std::size_t first, std::size_t end)
-      {
-        for (auto t = static_cast<std::uint32_t>(first); t < end; ++t)
-        {
-          for (unsigned i = 0; i < Corners; ++i)
-          {
-            visit(listOf(this->Cells[t].V, i), Corners * t + i);
-          }
-        }
-      },
-      stop);
-  };
-  forEachFacet([&](std::uint32_t list, std::uint32_t) { places.Add(list); });
-  UninitialisedVector<std::uint32_t> facets(places.TurnIntoPlaces()); // Corners * cell + index
-  forEachFacet([&](std::uint32_t list, std::uint32_t facet) { facets[places.Next(list)] = facet; });
-  ParallelFor(
-    0, lists, Grain, threads,
-    [&](std::size_t first, std::size_t last)
-    {
-      std::vector<OpenFacet> open;
-      for (std::size_t list = first; list < last; ++list)
-      {
-        open.clear();
-        for (std::size_t k = places.BeginOf(list); k < places.EndOf(list); ++k)
-        {
-          this->Join(facets[k] / Corners, facets[k] % Corners, open);
-        }
-      }
-    },
-    stop);
 }
 
 /**
@@ -403,142 +484,87 @@ void Complex<D>::FindBorderFaces(const Domain<D>& domain)
 }
 
 //------------------------------------------------------------------------------------------------
-/** Writes the points that cells of the mesh use. @return the number of each vertex in the mesh */
+/** The vertices of each facet of a positively oriented simplex. In 3D the normal points outwards. */
 template <int D>
-UninitialisedVector<std::uint32_t> Complex<D>::WritePoints(
-  SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop) const
+constexpr std::array<std::array<unsigned, D>, D + 1> OutwardCorners()
 {
-  UninitialisedVector<std::uint32_t> numbers(this->Points.size());
-  ChunkCounts counts(numbers.size());
-  const auto forChunks = [&](auto&& function)
-  { ParallelFor(0, numbers.size(), ChunkCounts::Grain, threads, function, stop); };
-  const auto isUsed = [this](std::size_t v)
-  { return this->Degrees[v] != 0 && (v < this->FirstOutside || v >= this->EndOfOutside); };
-  forChunks(
-    [&](std::size_t first, std::size_t end)
+  std::array<std::array<unsigned, D>, D + 1> corners{};
+  for (unsigned i = 0; i <= D; ++i)
+  {
+    for (unsigned m = 0; m < D; ++m)
     {
-      std::size_t used = 0;
-      for (std::size_t v = first; v < end; ++v)
-      {
-        used += isUsed(v) ? 1 : 0;
-      }
-      counts.OfChunk(first) = used;
-    });
-  mesh.Points.resize(counts.TurnIntoPlaces());
-  forChunks(
-    [&](std::size_t first, std::size_t end)
+      corners[i][m] = m + (m < i ? 0 : 1);
+    }
+    if (i % 2 == 1)
     {
-      std::size_t place = counts.OfChunk(first);
-      for (std::size_t v = first; v < end; ++v)
-      {
-        numbers[v] = None;
-        if (isUsed(v))
-        {
-          numbers[v] = static_cast<std::uint32_t>(place);
-          mesh.Points[place++] = this->Points[v];
-        }
-      }
-    });
-  return numbers;
+      std::swap(corners[i][0], corners[i][1]);
+    }
+  }
+  return corners;
 }
 
 template <int D>
-void Complex<D>::Write(SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop)
+void Complex<D>::Write(std::span<const std::int64_t> values, SimplexMesh<D>& mesh, unsigned threads,
+  const std::stop_token& stop)
 {
-  const auto release = [](auto&... arrays)
-  { ((arrays = std::remove_reference_t<decltype(arrays)>()), ...); }; // {} would keep the memory
-  release(mesh.Points, mesh.Simplices, mesh.Labels);
-  release(this->Scores, this->Kinds, this->BorderFaces, this->Hosts, this->Changes);
-  const UninitialisedVector<std::uint32_t> numbers = this->WritePoints(mesh, threads, stop);
-  release(this->Points, this->Degrees);
-
-  ChunkCounts cells(this->Cells.size());
-  ChunkCounts facets(this->Cells.size());
-  const auto forChunks = [&](auto&& function)
+  static constexpr auto outward = OutwardCorners<D>();
+  mesh = SimplexMesh<D>();
+  this->Compact(false, threads, stop);
+  const auto forChunks = [&](const auto& function)
   { ParallelFor(0, this->Cells.size(), ChunkCounts::Grain, threads, function, stop); };
-  const auto forAlive = [this](std::size_t first, std::size_t end, auto&& function)
-  {
-    for (auto t = static_cast<std::uint32_t>(first); t < end; ++t)
-    {
-      if (this->IsAlive(t) && this->Labels[t] != 0)
-      {
-        function(t);
-      }
-    }
-  };
-  const auto isInterface = [this](std::uint32_t t, unsigned i)
-  { return D == 3 && this->LabelOf(this->Cells[t].N[i]) < this->Labels[t]; };
+  const auto isInterface = [this](std::size_t t, unsigned i)
+  { return this->LabelOf(this->Cells[t].N[i]) < this->Labels[t]; };
+  ChunkCounts facets(this->Cells.size());
+  mesh.Simplices.resize(this->Cells.size());
+  mesh.Labels.resize(this->Cells.size());
   forChunks(
     [&](std::size_t first, std::size_t end)
     {
-      // Not in the counts themselves: those of several chunks share a cache line.
-      std::size_t alive = 0;
-      std::size_t interfaces = 0;
-      forAlive(first, end,
-        [&](std::uint32_t t)
+      std::size_t interfaces = 0; // counts of several chunks share a cache line
+      for (std::size_t t = first; t < end; ++t)
+      {
+        mesh.Simplices[t] = this->Cells[t].V;
+        mesh.Labels[t] = values[this->Labels[t]];
+        for (unsigned i = 0; i < Corners; ++i)
         {
-          ++alive;
-          for (unsigned i = 0; i < Corners; ++i)
-          {
-            interfaces += isInterface(t, i) ? 1 : 0;
-          }
-        });
-      cells.OfChunk(first) = alive;
+          interfaces += isInterface(t, i) ? 1 : 0;
+        }
+      }
       facets.OfChunk(first) = interfaces;
     });
-  const std::size_t number = cells.TurnIntoPlaces();
-  mesh.Labels.resize(number);
-  if constexpr (D == 3)
-  {
-    mesh.Facets.resize(facets.TurnIntoPlaces());
-    mesh.FacetLabels.resize(mesh.Facets.size());
-  }
-  // Facet i of a positively oriented tetrahedron, its normal outwards.
-  constexpr unsigned outward[4][3] = { { 1, 2, 3 }, { 2, 0, 3 }, { 0, 1, 3 }, { 1, 0, 2 } };
+  mesh.Facets.resize(facets.TurnIntoPlaces());
+  mesh.FacetLabels.resize(mesh.Facets.size());
   forChunks(
     [&](std::size_t first, std::size_t end)
     {
-      std::size_t cell = cells.OfChunk(first);
       std::size_t facet = facets.OfChunk(first);
-      forAlive(first, end,
-        [&](std::uint32_t t)
+      for (std::size_t t = first; t < end; ++t)
+      {
+        for (unsigned i = 0; i < Corners; ++i)
         {
-          const std::int64_t label = this->LabelValues[this->Labels[t]];
-          mesh.Labels[cell++] = label;
-          if constexpr (D == 3)
+          if (isInterface(t, i))
           {
-            const Vertices& v = this->Cells[t].V;
-            for (unsigned i = 0; i < Corners; ++i)
+            for (unsigned m = 0; m < D; ++m)
             {
-              if (isInterface(t, i))
-              {
-                mesh.Facets[facet] = { numbers[v[outward[i][0]]], numbers[v[outward[i][1]]],
-                  numbers[v[outward[i][2]]] };
-                mesh.FacetLabels[facet] = { label,
-                  this->LabelValues[this->LabelOf(this->Cells[t].N[i])] };
-                ++facet;
-              }
+              mesh.Facets[facet][m] = this->Cells[t].V[outward[i][m]];
             }
+            mesh.FacetLabels[facet] = { mesh.Labels[t],
+              values[this->LabelOf(this->Cells[t].N[i])] };
+            ++facet;
           }
-        });
+        }
+      }
     });
-  mesh.Simplices.resize(number);
-  forChunks(
-    [&](std::size_t first, std::size_t end)
+  for (std::uint32_t v = 0; v < this->Twins.size(); ++v)
+  {
+    const std::uint32_t twin = this->Twins[v];
+    if (twin != None && this->Points[v][D - 1] < this->Points[twin][D - 1])
     {
-      std::size_t cell = cells.OfChunk(first);
-      forAlive(first, end,
-        [&](std::uint32_t t)
-        {
-          const Vertices& v = this->Cells[t].V;
-          for (unsigned i = 0; i < Corners; ++i)
-          {
-            mesh.Simplices[cell][i] = numbers[v[i]];
-          }
-          ++cell;
-        });
-    });
-  release(this->Cells, this->Labels);
+      mesh.Twins.push_back({ v, twin });
+    }
+  }
+  mesh.Points = std::move(this->Points);
+  *this = Complex();
 }
 
 template class Complex<3>;

@@ -2,17 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Complex.h
- * @brief A labelled mesh with adjacency, for changes.
+ * @brief The labelled mesh after refinement, which the fit, opening and optimisation change.
  */
 #ifndef voxplex_Complex_h
 #define voxplex_Complex_h
 
 #include "Base/UninitialisedVector.h"
+#include "Delaunay/Triangulation.h"
 #include "Domain/Domain.h"
+#include "Mesh/LabelledCells.h"
 #include "Mesh/SimplexMesh.h"
 #include "Optimisation/PentatopeShape.h"
 #include "Optimisation/ShapeScore.h"
-#include "Optimisation/Surroundings.h"
 #include "Quality/ComponentGuard.h"
 
 #include <algorithm>
@@ -36,13 +37,6 @@ enum class VertexRole : std::uint8_t
   Surface, ///< on an interface of two labels; one of them may be background
   Crease,  ///< as Surface, but on an edge of a face where the image cuts the object
   Fixed    ///< where three or more labels meet
-};
-
-/** Numbers of cells and vertices that a complex can take without moving its arrays. */
-struct SpareRoom
-{
-  std::size_t Cells = 0;
-  std::size_t Vertices = 0;
 };
 
 /** The cells that were seen in a search. Memory is kept from search to search. */
@@ -110,14 +104,13 @@ struct VertexStar
 };
 
 /**
- * @brief The data structure of optimisation: a SimplexMesh<D> with adjacency, kinds of vertices and
- * scores. In 4D it also has the pentatopes around the mesh.
+ * @brief The one mesh after refinement: cells that know their neighbours, and their labels. It is made from
+ * a labelled triangulation, changed in place (FitInterfaces(), OpenRidges(), OptimiseMesh(),
+ * OptimisePentatopes()), and written once.
  *
- * Cell: the vertices V are positively oriented. N[i] is the neighbour across the facet opposite to
- * V[i], or None where the complex ends. Slots of deleted cells have V[0] == None.
- *
- * Labels are indices into LabelValues, which is sorted; 0 is background, which only cells around the
- * mesh have.
+ * The cells are the simplices of the object, which have a label, and those around it, with label 0, which
+ * have a vertex of it. The star of each vertex of the object is whole. Slots of deleted cells have
+ * V[0] == None. N[i] is None where the triangulation ends, or the cells around the object do.
  *
  * Threads may change disjoint blocks of the complex at the same time: see Patch.
  */
@@ -127,17 +120,12 @@ class Complex
 public:
   static constexpr std::uint32_t None = 0xffffffffu;
   static constexpr unsigned Corners = D + 1;
-  using Vertices = std::array<std::uint32_t, static_cast<std::size_t>(D + 1)>;
+  using Cell = voxplex::Cell<D>;
+  using Vertices = typename Cell::Corners;
   using Facet = std::array<std::uint32_t, static_cast<std::size_t>(D)>;
-  using Label = std::uint32_t;
+  using Label = LabelId;
   using ShapeFunction = std::conditional_t<D == 3, ShapeScore, PentatopeScore>;
   using ScoreValue = std::conditional_t<D == 3, float, double>;
-
-  struct Cell
-  {
-    Vertices V;
-    Vertices N;
-  };
 
   /** A facet whose neighbour is not known, vertices sorted. */
   struct OpenFacet
@@ -147,35 +135,59 @@ public:
     unsigned Index;
   };
 
-  /**
-   * @param mesh a valid mesh: positive orientation, at most two cells at a facet
-   * @param scores of the cells, if they are known; otherwise empty
-   * @param spare room for this many more cells and vertices (AddCells(), AddVertices())
-   * @param outside the cells around the mesh
-   *
-   * Complexity: linear, except for sorting label values. The result does not depend on the number of
-   * threads.
-   */
-  Complex(const SimplexMesh<D>& mesh, const ShapeFunction& score, unsigned threads,
-    const std::stop_token& stop, std::span<const ScoreValue> scores = {},
-    const SpareRoom& spare = {}, const Surroundings<D>& outside = {});
+  Complex() = default;
 
   /**
-   * Finds the vertices on faces where the image cuts the object. To be called once, before any
-   * change.
+   * Cells and vertices get the numbers that Compact() gives. No thread may change the triangulation
+   * meanwhile. O(n) time for n simplices. The result does not depend on the number of threads.
+   *
+   * @param labels of each simplex id
+   * @param twins pairs of vertices at the ends of a periodic mesh
+   * @param numbers receives the number of each vertex id; None if the complex does not have it
+   * @param threads 0 means all cores
+   * @throws Cancelled if a stop was requested before the end; std::bad_alloc
+   */
+  Complex(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
+    std::span<const std::array<VertexId, 2>> twins, UninitialisedVector<std::uint32_t>& numbers,
+    unsigned threads = 1, const std::stop_token& stop = {});
+
+  /** From cells that are known, all of them in use. */
+  Complex(UninitialisedVector<Point<D>> points, UninitialisedVector<Cell> cells,
+    UninitialisedVector<Label> labels, unsigned threads = 1, const std::stop_token& stop = {});
+
+  /**
+   * Removes dead cells and unused vertices, and those around the object if they are not to be kept. Numbers
+   * the object first. Otherwise cells and vertices keep their order. What FindKinds(), ScoreCells() and
+   * Protect() have found is lost.
+   */
+  void Compact(bool keepsOutside, unsigned threads = 1, const std::stop_token& stop = {});
+
+  /** Finds the kinds of vertices. To be called before optimisation. Linear time. */
+  void FindKinds(unsigned threads = 1, const std::stop_token& stop = {});
+
+  /**
+   * Finds the vertices on faces where the image cuts the object. After FindKinds(), if the complex has no
+   * cells around the object.
    */
   void FindBorderFaces(const Domain<D>& domain);
 
-  /** No change loses a component from now on. To be called once, before any change. */
-  void Protect(ComponentGuard<D>& guard, const SimplexMesh<D>& mesh, unsigned threads,
-    const std::stop_token& stop);
+  /** Scores all cells. */
+  void ScoreCells(unsigned threads = 1, const std::stop_token& stop = {});
 
   /**
-   * Replaces the mesh by the current state: used points, cells and in 3D interfaces; in 4D facets do
-   * not change. Cells around the mesh are left out. The complex is taken apart while the mesh is
-   * written, so that both never take their whole memory. Afterwards it cannot be used any more.
+   * No change loses a component from now on. All cells must be alive. Null: none is protected.
+   * @param guard must outlive the changes
    */
-  void Write(SimplexMesh<D>& mesh, unsigned threads = 1, const std::stop_token& stop = {});
+  void Protect(ComponentGuard<D>* guard, unsigned threads = 1, const std::stop_token& stop = {});
+
+  /**
+   * Writes the mesh: all but Slabs. Points and cells have the order of Compact(). The complex is empty
+   * afterwards.
+   * @param values of the label ids in the image; that of background is 0
+   * @param mesh its old contents are lost
+   */
+  void Write(std::span<const std::int64_t> values, SimplexMesh<D>& mesh, unsigned threads = 1,
+    const std::stop_token& stop = {});
 
   /** Adds slots for more cells. They are not alive. */
   void AddCells(std::size_t number);
@@ -265,10 +277,7 @@ public:
 
   /** Whether no component is lost if v, a vertex of t, moves. */
   bool KeepsComponents(std::uint32_t t, std::uint32_t v, const Point<D>& to) const;
-  /** The label id in the image. */
-  LabelId LabelInImage(Label label) const { return this->Guard->LabelOf(this->LabelValues[label]); }
-
-  ShapeFunction Shape;
+  ShapeFunction Shape{};
   ScoreValue Goal = 1; ///< cells with a lower score are poor
   UninitialisedVector<Point<D>> Points;
   /**
@@ -286,23 +295,15 @@ public:
   std::vector<std::uint32_t> Twins;   ///< of each vertex; empty if there are none
   UninitialisedVector<Cell> Cells;
   UninitialisedVector<Label> Labels;
-  UninitialisedVector<ScoreValue> Scores; ///< of background: the least volume that it keeps
-  std::vector<std::int64_t> LabelValues;
+  UninitialisedVector<ScoreValue> Scores;   ///< of background: the least volume that it keeps
   const ComponentGuard<D>* Guard = nullptr; ///< is asked before a holder changes; null: none does
   std::vector<std::uint8_t> AreHolders;     ///< by cell; empty if there are none
 
 private:
-  void FindLabels(const SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop);
-  void CopyCells(const SimplexMesh<D>& mesh, const Surroundings<D>& outside, unsigned threads,
-    const std::stop_token& stop);
-  void ScoreCells(unsigned threads, const std::stop_token& stop);
-  void Connect(unsigned threads, const std::stop_token& stop);
-  void FindKinds(unsigned threads, const std::stop_token& stop);
-  UninitialisedVector<std::uint32_t> WritePoints(
-    SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop) const;
-
-  std::size_t FirstOutside; ///< of the points
-  std::size_t EndOfOutside;
+  template <typename Source>
+  UninitialisedVector<std::uint32_t> Copy(
+    const Source& source, bool withOutside, unsigned threads, const std::stop_token& stop);
+  void FindHosts(unsigned threads, const std::stop_token& stop);
 };
 
 using TetrahedralComplex = Complex<3>;

@@ -17,63 +17,41 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <stop_token>
-#include <vector>
 
 namespace voxplex
 {
 
 /**
- * @brief Says whether simplices and facets with moved vertices keep the bounds of a fit.
- *
- * After FindHolders(), any number of threads may ask, while nobody changes the positions.
+ * @brief Says whether cells and facets with moved vertices keep the bounds of a fit. Any number of
+ * threads may ask, while nobody changes the positions.
  */
 template <int D>
 class FitShapes
 {
 public:
-  /** All references must outlive this object. @param positions the moved ones, of each vertex id */
-  FitShapes(const Triangulation<D>& triangulation, const Domain<D>& surfaces,
-    const SimplexLabels& labels, const FitBounds<D>& bounds,
-    const UninitialisedVector<Point<D>>& positions)
-    : Source(triangulation)
+  /** All references must outlive this object. @param before the positions before all steps */
+  FitShapes(const Complex<D>& complex, const Domain<D>& surfaces, const FitBounds<D>& bounds,
+    const UninitialisedVector<Point<D>>& before)
+    : Mesh(complex)
     , Surfaces(surfaces)
-    , Labels(labels)
     , Bounds(bounds)
-    , Positions(positions)
+    , Originals(before)
     , AnyBounds(
         bounds.NormalizedVolume > 0.0 || std::isfinite(bounds.RadiusEdgeRatio) || bounds.Sizing)
     , LargestCosine(std::cos(bounds.FacetAngle / DegreesPerRadian))
   {
   }
 
-  /** Finds the simplices that hold components (ComponentGuard); before all questions. */
-  void FindHolders(unsigned threads, const std::stop_token& stop)
+  /** Whether the moved cell is positively oriented, and keeps the bounds or gets no worse. */
+  bool IsGood(std::uint32_t s) const
   {
-    if (this->Bounds.Guard)
-    {
-      this->AreHolders = this->Bounds.Guard->FindHolders(
-        LabelledTriangulation<D>(this->Source, this->Labels), threads, stop);
-    }
-  }
-
-  /**
-   * Whether the moved simplex is positively oriented, and keeps the bounds or gets no worse.
-   */
-  bool IsGood(SimplexId s) const
-  {
-    const auto& v = this->Source.GetSimplex(s).V;
-    Corners after;
-    for (std::size_t k = 0; k <= D; ++k)
-    {
-      after[k] = &this->Positions[v[k]];
-    }
+    const Corners after = this->Mesh.PointsOf(this->Mesh.Cells[s].V);
     const double volume = SignedVolume<D>(after.data());
     const double least =
       this->HasBounds(s) ? 0.0 : VolumeKept * SignedVolume<D>(this->Before(s).data());
     if (!(volume > least) ||
-      (!this->AreHolders.empty() && this->AreHolders[s] != 0 &&
-        !this->Bounds.Guard->Keeps(this->Labels[s], this->Before(s), after)))
+      (this->Mesh.IsHolder(s) &&
+        !this->Mesh.Guard->Keeps(this->Mesh.Labels[s], this->Before(s), after)))
     {
       return false;
     }
@@ -96,17 +74,16 @@ public:
                shape.RadiusEdge2 <=
                  std::max(this->Bounds.RadiusEdgeRatio * this->Bounds.RadiusEdgeRatio,
                    shapeBefore.RadiusEdge2))) &&
-      this->HasRightSize(shape.Ball, shapeBefore.Ball, this->Labels[s]);
+      this->HasRightSize(shape.Ball, shapeBefore.Ball, this->Mesh.Labels[s]);
   }
 
   /** Whether no angle of an interface triangle is below the bound, or smaller than before. */
-  bool HasGoodAngles(const std::array<VertexId, 3>& v) const
+  bool HasGoodAngles(const std::array<std::uint32_t, 3>& v) const
   {
-    const double cosine =
-      CosineOfSmallestAngle(this->Positions[v[0]], this->Positions[v[1]], this->Positions[v[2]]);
-    return cosine <= this->LargestCosine ||
-      cosine <= CosineOfSmallestAngle(this->Source.Position(v[0]), this->Source.Position(v[1]),
-                  this->Source.Position(v[2]));
+    const auto cosineIn = [&v](const UninitialisedVector<Point<D>>& points)
+    { return CosineOfSmallestAngle(points[v[0]], points[v[1]], points[v[2]]); };
+    const double cosine = cosineIn(this->Mesh.Points);
+    return cosine <= this->LargestCosine || cosine <= cosineIn(this->Originals);
   }
 
 private:
@@ -138,19 +115,19 @@ private:
     return shape;
   }
 
-  Corners Before(SimplexId s) const
+  Corners Before(std::uint32_t s) const
   {
-    const auto& v = this->Source.GetSimplex(s).V;
+    const auto& v = this->Mesh.Cells[s].V;
     Corners corners;
     for (std::size_t k = 0; k <= D; ++k)
     {
-      corners[k] = &this->Source.Position(v[k]);
+      corners[k] = &this->Originals[v[k]];
     }
     return corners;
   }
 
   /** Whether bounds of shapes or sizes apply. */
-  bool HasBounds(SimplexId s) const { return this->Labels[s] != 0 && this->AnyBounds; }
+  bool HasBounds(std::uint32_t s) const { return this->Mesh.Labels[s] != 0 && this->AnyBounds; }
 
   /**
    * Whether a simplex of a label is below the element size at its new centre, or, compared with that
@@ -179,14 +156,12 @@ private:
     return ball.Radius2 * sizeBefore * sizeBefore <= before.Radius2 * size * size;
   }
 
-  const Triangulation<D>& Source;
+  const Complex<D>& Mesh;
   const Domain<D>& Surfaces;
-  const SimplexLabels& Labels;
   const FitBounds<D> Bounds;
-  const UninitialisedVector<Point<D>>& Positions;
-  const bool AnyBounds;                 ///< of shapes or sizes
-  const double LargestCosine;           ///< of the smallest angle of an interface triangle
-  std::vector<std::uint8_t> AreHolders; ///< by simplex id; empty if there are none
+  const UninitialisedVector<Point<D>>& Originals;
+  const bool AnyBounds;       ///< of shapes or sizes
+  const double LargestCosine; ///< of the smallest angle of an interface triangle
 };
 
 } // namespace voxplex

@@ -54,28 +54,28 @@ template <int D>
 class Fit
 {
 public:
-  Fit(const Triangulation<D>& triangulation, const Domain<D>& surfaces, const SimplexLabels& labels,
-    const FitBounds<D>& bounds, unsigned threads, const std::stop_token& stop)
-    : Source(triangulation)
+  Fit(Complex<D>& complex, const Domain<D>& surfaces, const FitBounds<D>& bounds, unsigned threads,
+    const std::stop_token& stop)
+    : Mesh(complex)
+    , Originals(complex.Points)
     , Surfaces(surfaces)
-    , Labels(labels)
     , Bounds(bounds)
     , Limits(bounds.Image, surfaces, bounds.Planes)
-    , Shapes(triangulation, surfaces, labels, bounds, this->Positions)
+    , Shapes(complex, surfaces, bounds, this->Originals)
     , Threads(threads)
     , Stop(stop)
+    , HasChanged(complex.Points.size(), 0)
+    , Ranks(complex.Points.size(), None)
   {
   }
 
-  FittedPositions<D> Run()
+  /** @return the number of vertices of interfaces */
+  std::uint64_t Run()
   {
-    this->CopyPositions();
-    this->FindTwins();
     this->FindFacets();
     this->FindVertices();
     this->MeasureFacets();
     this->FindInterfaces();
-    this->Shapes.FindHolders(this->Threads, this->Stop);
     for (unsigned round = 0; round < Rounds<D>; ++round)
     {
       for (unsigned iteration = 0; iteration < Iterations<D>; ++iteration)
@@ -87,7 +87,7 @@ public:
       this->KeepShapes();
       this->TakeSteps();
     }
-    return { std::move(this->Positions), this->Moving.size() };
+    return this->Moving.size();
   }
 
 private:
@@ -101,8 +101,7 @@ private:
     std::uint32_t Interface; ///< its number in Offsets
     LabelId Inner;           ///< the larger label
     LabelId Outer;
-    std::array<VertexId, static_cast<std::size_t>(D)>
-      V; ///< ordered so that the normal points out of the larger label
+    typename Complex<D>::Facet V; ///< ordered so that the normal points out of the larger label
     double Area;
     double Target;   ///< mean of the vertices' displacements along the normal
     double Centroid; ///< before all steps, along the normal
@@ -112,8 +111,8 @@ private:
   /** A vertex of a facet. Several threads access different ones. */
   struct Corner
   {
-    VertexId Id;
-    VertexId Twin;       ///< moves alike; or None
+    std::uint32_t Id;
+    std::uint32_t Twin;  ///< moves alike; or None
     Point<D> Moved;      ///< the steps of the rounds before
     Point<D> Step;       ///< of this round
     double ShortestEdge; ///< of the facets around it
@@ -141,54 +140,22 @@ private:
   }
 
   /** Vertices of the last end of a periodic mesh are known by their twins at the first one. */
-  VertexId FirstOf(VertexId v) const
+  std::uint32_t FirstOf(std::uint32_t v) const
   {
-    return this->Twins.empty() || this->Twins[v] == None || this->Twins[v] > v ? v : this->Twins[v];
+    return std::min(v, this->Mesh.TwinOf(v)); // None is the largest number
   }
 
-  void FindTwins()
-  {
-    if (this->Bounds.Twins.empty())
-    {
-      return;
-    }
-    this->Twins.assign(this->Source.VertexIdEnd(), None);
-    for (const auto& [first, last] : this->Bounds.Twins)
-    {
-      this->Twins[first] = last;
-      this->Twins[last] = first;
-    }
-  }
-
-  void CopyPositions()
-  {
-    this->Positions.resize(this->Source.VertexIdEnd());
-    this->HasChanged.assign(this->Source.VertexIdEnd(), 0);
-    this->ForChunks(this->Positions.size(),
-      [this](std::size_t first, std::size_t last)
-      {
-        for (auto v = static_cast<VertexId>(first); v < last; ++v)
-        {
-          this->Positions[v] = this->Source.Position(v);
-        }
-      });
-  }
-
-  /** Calls function(s, i) for facet i of each simplex s where the label beyond is smaller. */
+  /** Calls function(s, i) for facet i of each cell s where the label beyond is smaller. */
   template <typename Function>
   void ForFacetsIn(std::size_t first, std::size_t last, Function&& function) const
   {
-    for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+    for (auto s = static_cast<std::uint32_t>(first); s < last; ++s)
     {
-      if (this->Labels[s] == 0)
-      {
-        continue;
-      }
-      const auto& neighbours = this->Source.GetSimplex(s).N;
+      const auto& neighbours = this->Mesh.Cells[s].N;
       for (unsigned i = 0; i <= static_cast<unsigned>(D); ++i)
       {
         // A facet without a neighbour lies on the box, on a flat end.
-        if (neighbours[i] != None && this->Labels[neighbours[i]] < this->Labels[s])
+        if (neighbours[i] != None && this->Mesh.Labels[neighbours[i]] < this->Mesh.Labels[s])
         {
           function(s, i);
         }
@@ -198,23 +165,23 @@ private:
 
   void FindFacets()
   {
-    ChunkCounts counts(this->Labels.size());
-    this->ForChunks(this->Labels.size(),
+    ChunkCounts counts(this->Mesh.Cells.size());
+    this->ForChunks(this->Mesh.Cells.size(),
       [&](std::size_t first, std::size_t last)
       {
         std::size_t n = 0;
-        this->ForFacetsIn(first, last, [&n](SimplexId, unsigned) { ++n; });
+        this->ForFacetsIn(first, last, [&n](std::uint32_t, unsigned) { ++n; });
         counts.OfChunk(first) = n;
       });
     this->Facets.resize(counts.TurnIntoPlaces());
-    this->ForChunks(this->Labels.size(),
+    this->ForChunks(this->Mesh.Cells.size(),
       [&](std::size_t first, std::size_t last)
       {
         std::size_t f = counts.OfChunk(first);
         this->ForFacetsIn(first, last,
-          [&](SimplexId s, unsigned i)
+          [&](std::uint32_t s, unsigned i)
           {
-            const auto& simplex = this->Source.GetSimplex(s);
+            const auto& simplex = this->Mesh.Cells[s];
             Facet& facet = this->Facets[f++];
             unsigned m = 0;
             for (unsigned k = 0; k <= static_cast<unsigned>(D); ++k)
@@ -228,8 +195,8 @@ private:
             {
               std::swap(facet.V[0], facet.V[1]);
             }
-            facet.Inner = this->Labels[s];
-            facet.Outer = this->Labels[simplex.N[i]];
+            facet.Inner = this->Mesh.Labels[s];
+            facet.Outer = this->Mesh.Labels[simplex.N[i]];
           });
       });
   }
@@ -253,18 +220,17 @@ private:
     const std::span<std::uint64_t> all(memory);
     const std::span<const std::uint64_t> sorted = ParallelRadixSort(
       all.first(n), all.last(n),
-      static_cast<unsigned>(std::bit_width(std::uint64_t{ this->Source.VertexIdEnd() })),
+      static_cast<unsigned>(std::bit_width(std::uint64_t{ this->Mesh.Points.size() })),
       [](std::uint64_t record) { return record >> 32; }, this->Threads, this->Stop);
 
-    this->Ranks.assign(this->Source.VertexIdEnd(), None);
     this->FacetsOf.resize(n);
     for (std::size_t k = 0; k < n; ++k)
     {
-      const auto v = static_cast<VertexId>(sorted[k] >> 32);
+      const auto v = static_cast<std::uint32_t>(sorted[k] >> 32);
       if (this->Moving.empty() || this->Moving.back().Id != v)
       {
-        const unsigned held = this->Limits.HeldAt(this->Source.Position(v));
-        const VertexId twin = this->Twins.empty() ? None : this->Twins[v];
+        const unsigned held = this->Limits.HeldAt(this->Originals[v]);
+        const std::uint32_t twin = this->Mesh.TwinOf(v);
         this->Ranks[v] = static_cast<std::uint32_t>(this->Moving.size());
         if (twin != None)
         {
@@ -291,7 +257,7 @@ private:
     double longest2 = 0.0;
     for (std::size_t k = 0; k < D; ++k)
     {
-      p[k] = this->Source.Position(facet.V[k]);
+      p[k] = this->Originals[facet.V[k]];
       for (std::size_t a = 0; a < D; ++a)
       {
         centroid[a] += p[k][a] / D;
@@ -419,7 +385,7 @@ private:
     double centroid = 0.0;
     for (std::size_t k = 0; k < D; ++k)
     {
-      p[k] = this->Positions[facet.V[k]];
+      p[k] = this->Mesh.Points[facet.V[k]];
       centroid += Dot(facet.Normal, p[k]) / D;
     }
     const double step = centroid - facet.Centroid;
@@ -471,7 +437,7 @@ private:
     {
       total[a] = corner.Moved[a] + corner.Step[a] + sum[a] / weights;
     }
-    total = this->Limits.Hold(this->Source.Position(corner.Id), total, corner.Held);
+    total = this->Limits.Hold(this->Originals[corner.Id], total, corner.Held);
     const double length = std::sqrt(Dot(total, total));
     double factor = std::min(1.0, LongestMove * corner.ShortestEdge / length); // inf if length is 0
     factor = std::min(factor, this->Limits.Shortening(total));
@@ -485,16 +451,16 @@ private:
   void Place(Corner& corner)
   {
     static constexpr std::array<double, Halvings + 2> shares = { 1.0, 0.5, 0.0 };
-    const Point<D>& p = this->Source.Position(corner.Id);
+    const Point<D>& p = this->Originals[corner.Id];
     for (std::size_t a = 0; a < D; ++a)
     {
-      this->Positions[corner.Id][a] =
+      this->Mesh.Points[corner.Id][a] =
         p[a] + (corner.Moved[a] + shares[corner.Halved] * corner.Step[a]);
     }
     if (corner.Twin != None)
     {
-      Point<D>& twin = this->Positions[corner.Twin];
-      std::copy_n(this->Positions[corner.Id].begin(), D - 1, twin.begin()); // the time stays
+      Point<D>& twin = this->Mesh.Points[corner.Twin];
+      std::copy_n(this->Mesh.Points[corner.Id].begin(), D - 1, twin.begin()); // the time stays
     }
   }
 
@@ -520,22 +486,21 @@ private:
       });
   }
 
-  /** Shortens steps until every simplex is good. Each pass shortens at least one. */
+  /** Shortens steps until every cell is good. Each pass shortens at least one. */
   void KeepShapes()
   {
     for (bool areGood = false; !areGood;)
     {
       std::atomic<bool> anyBad{ false };
-      this->ForChunks(this->Labels.size(),
+      this->ForChunks(this->Mesh.Cells.size(),
         [&](std::size_t first, std::size_t last)
         {
-          for (auto s = static_cast<SimplexId>(first); s < last; ++s)
+          for (auto s = static_cast<std::uint32_t>(first); s < last; ++s)
           {
-            if (this->Source.IsAlive(s) && this->HasChangedVertex(this->Source.GetSimplex(s).V) &&
-              !this->Shapes.IsGood(s))
+            if (this->HasChangedVertex(this->Mesh.Cells[s].V) && !this->Shapes.IsGood(s))
             {
               anyBad.store(true, std::memory_order_relaxed);
-              this->MarkCornersOf(this->Source.GetSimplex(s).V);
+              this->MarkCornersOf(this->Mesh.Cells[s].V);
             }
           }
         });
@@ -574,7 +539,7 @@ private:
         corner.Step = isWorthIt ? corner.Step : Point<D>{};
         corner.Halved = 0;
         this->Place(corner);
-        while (corner.Halved <= Halvings && !this->Limits.IsNearImage(this->Positions[corner.Id]))
+        while (corner.Halved <= Halvings && !this->Limits.IsNearImage(this->Mesh.Points[corner.Id]))
         {
           ++corner.Halved;
           this->Place(corner);
@@ -587,7 +552,7 @@ private:
     this->ForCorners(
       [this](Corner& corner)
       {
-        corner.Moved = Subtract(this->Positions[corner.Id], this->Source.Position(corner.Id));
+        corner.Moved = Subtract(this->Mesh.Points[corner.Id], this->Originals[corner.Id]);
         corner.Step = {};
       });
   }
@@ -595,13 +560,14 @@ private:
   template <typename Vertices>
   bool HasChangedVertex(const Vertices& v) const
   {
-    return std::any_of(v.begin(), v.end(), [this](VertexId x) { return this->HasChanged[x] != 0; });
+    return std::any_of(
+      v.begin(), v.end(), [this](std::uint32_t x) { return this->HasChanged[x] != 0; });
   }
 
   template <typename Vertices>
   void MarkCornersOf(const Vertices& vertices)
   {
-    for (const VertexId v : vertices)
+    for (const std::uint32_t v : vertices)
     {
       if (this->Ranks[v] != None && this->Moving[this->Ranks[v]].Halved <= Halvings)
       {
@@ -612,9 +578,9 @@ private:
     }
   }
 
-  const Triangulation<D>& Source;
+  Complex<D>& Mesh;                              ///< its points have the steps of this round
+  const UninitialisedVector<Point<D>> Originals; ///< the points before all steps
   const Domain<D>& Surfaces;
-  const SimplexLabels& Labels;
   const FitBounds<D> Bounds;
   const MoveLimits<D> Limits;
   FitShapes<D> Shapes;
@@ -628,26 +594,23 @@ private:
   bool HasSteps = false; ///< whether any vertex has been moved
   std::vector<std::size_t> FirstFacet; ///< of each corner, in FacetsOf; and the end
   UninitialisedVector<std::uint32_t> FacetsOf;
-  UninitialisedVector<Point<D>> Positions; ///< of each vertex id, with the steps of this round
-  std::vector<std::uint8_t> HasChanged;    ///< of each vertex id, since its simplices were checked
-  std::vector<std::uint32_t> Ranks;        ///< place in Moving of each vertex id, or None
-  std::vector<VertexId> Twins;             ///< of each vertex id, or None; empty if there are none
+  std::vector<std::uint8_t> HasChanged; ///< of each vertex, since its cells were checked
+  std::vector<std::uint32_t> Ranks;     ///< place in Moving of each vertex, or None
 };
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-FittedPositions<D> FitInterfaces(const Triangulation<D>& triangulation, const Domain<D>& surfaces,
-  const SimplexLabels& labels, const FitBounds<D>& bounds, unsigned threads,
-  const std::stop_token& stop)
+std::uint64_t FitInterfaces(Complex<D>& complex, const Domain<D>& surfaces,
+  const FitBounds<D>& bounds, unsigned threads, const std::stop_token& stop)
 {
-  return Fit<D>(triangulation, surfaces, labels, bounds, threads, stop).Run();
+  return Fit<D>(complex, surfaces, bounds, threads, stop).Run();
 }
 
-template FittedPositions<3> FitInterfaces<3>(const Triangulation<3>&, const Domain<3>&,
-  const SimplexLabels&, const FitBounds<3>&, unsigned, const std::stop_token&);
-template FittedPositions<4> FitInterfaces<4>(const Triangulation<4>&, const Domain<4>&,
-  const SimplexLabels&, const FitBounds<4>&, unsigned, const std::stop_token&);
+template std::uint64_t FitInterfaces<3>(
+  Complex<3>&, const Domain<3>&, const FitBounds<3>&, unsigned, const std::stop_token&);
+template std::uint64_t FitInterfaces<4>(
+  Complex<4>&, const Domain<4>&, const FitBounds<4>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex

@@ -7,16 +7,12 @@
 #ifndef voxplex_InterfaceFit_h
 #define voxplex_InterfaceFit_h
 
-#include "Base/UninitialisedVector.h"
-#include "Delaunay/Triangulation.h"
 #include "Domain/Domain.h"
 #include "Domain/TimePlanes.h"
 #include "Image/LabelImage.h"
-#include "Mesh/SimplexLabels.h"
-#include "Quality/ComponentGuard.h"
+#include "Optimisation/Complex.h"
 #include "Sizing/SizingField.h"
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -37,30 +33,14 @@ struct FitBounds
   double FacetAngle = 0.0; ///< smallest planar angle of interface triangles, in degrees; 3D only
   const SizingField<D>* Sizing = nullptr; ///< circumradii are below its element sizes; may be null
   /**
-   * Pairs of vertices that make the same steps, with the first and the last time of a periodic mesh;
-   * ascending by the first.
-   */
-  std::span<const std::array<VertexId, 2>> Twins = {};
-  /**
    * The volume that each label id is to have. In 3D only; all labels must be inside of the box.
    * Empty: what the distances from the interfaces give.
    */
   std::span<const double> Volumes = {};
-  /** No step that would lose one of its components is made. Null: all are. */
-  ComponentGuard<D>* Guard = nullptr;
-};
-
-/** The result of FitInterfaces(). */
-template <int D>
-struct FittedPositions
-{
-  UninitialisedVector<Point<D>> Positions; ///< of each vertex id of the triangulation
-  std::uint64_t Vertices = 0;              ///< vertices of interfaces
 };
 
 /**
- * @brief Computes positions for the vertices of interfaces, so that facets lie on the interfaces on
- * average.
+ * @brief Moves the vertices of interfaces, so that facets lie on the interfaces on average.
  *
  * All vertices of a facet lie on the interface, so the facet is a chord: where the interface is convex,
  * its label loses volume. The loss grows with the square of delta, and with each dimension. Let
@@ -83,22 +63,23 @@ struct FittedPositions
  * triangulation of the same box. There are two rounds, in 4D three: from the second on, other vertices
  * make up for those that had to stay.
  *
- * O(n) time for n simplices, and one search for an interface for each facet. The result does not
- * depend on the number of threads. No thread may change the triangulation meanwhile.
+ * O(n) time for n cells, and one search for an interface for each facet. The result does not depend on
+ * the number of threads.
  *
- * @param labels of each simplex id
+ * @param complex with the cells around the object. Its twins move alike. No step that would lose one of
+ *   its protected components is made.
  * @param threads 0 means all cores
+ * @return the number of vertices of interfaces
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>
-FittedPositions<D> FitInterfaces(const Triangulation<D>& triangulation, const Domain<D>& surfaces,
-  const SimplexLabels& labels, const FitBounds<D>& bounds, unsigned threads = 1,
-  const std::stop_token& stop = {});
+std::uint64_t FitInterfaces(Complex<D>& complex, const Domain<D>& surfaces,
+  const FitBounds<D>& bounds, unsigned threads = 1, const std::stop_token& stop = {});
 
-extern template FittedPositions<3> FitInterfaces<3>(const Triangulation<3>&, const Domain<3>&,
-  const SimplexLabels&, const FitBounds<3>&, unsigned, const std::stop_token&);
-extern template FittedPositions<4> FitInterfaces<4>(const Triangulation<4>&, const Domain<4>&,
-  const SimplexLabels&, const FitBounds<4>&, unsigned, const std::stop_token&);
+extern template std::uint64_t FitInterfaces<3>(
+  Complex<3>&, const Domain<3>&, const FitBounds<3>&, unsigned, const std::stop_token&);
+extern template std::uint64_t FitInterfaces<4>(
+  Complex<4>&, const Domain<4>&, const FitBounds<4>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex
 

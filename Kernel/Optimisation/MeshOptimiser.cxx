@@ -3,7 +3,6 @@
 #include "Optimisation/MeshOptimiser.h"
 
 #include "Base/Error.h"
-#include "Base/UninitialisedVector.h"
 #include "Optimisation/Complex.h"
 #include "Optimisation/InterfaceRules.h"
 #include "Optimisation/PatchWorker.h"
@@ -35,8 +34,6 @@ constexpr std::size_t SurveyGrain = 16384;
 /** Vertices of a block. In larger blocks, fewer tetrahedra lie between blocks. */
 constexpr std::size_t VerticesOfBlock = 4000;
 constexpr std::size_t MostBlocks = 256;
-/** Room for new vertices is one for so many; if it is too little, arrays are copied. */
-constexpr std::size_t VerticesPerSpare = 16;
 /** The most vertices that are inserted for one poor tetrahedron. */
 constexpr std::size_t SparePerPoor = 8;
 /**
@@ -500,35 +497,34 @@ private:
   ShapeStatistics Counts;
 };
 
-/** MeasureShapes(). @param scores empty, or receives the scores of the tetrahedra */
-ShapeStatistics MeasureAndScore(const SimplexMesh<3>& mesh, const OptimisationOptions& options,
-  std::span<float> scores, unsigned threads, const std::stop_token& stop)
+/** Measures all tetrahedra, and scores them. */
+ShapeStatistics MeasureAndScore(
+  TetrahedralComplex& complex, unsigned threads, const std::stop_token& stop)
 {
-  const ShapeScore score = ScoreOf(options);
   const AngleBins bins;
   ShapeStatistics all;
   std::mutex mutex;
   ParallelFor(
-    0, mesh.Simplices.size(), SurveyGrain, threads,
+    0, complex.Cells.size(), SurveyGrain, threads,
     [&](std::size_t first, std::size_t last)
     {
       ShapeSurvey part(bins);
-      for (std::size_t t = first; t < last; ++t)
+      for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
       {
-        const auto& v = mesh.Simplices[t];
+        if (!complex.IsAlive(t))
+        {
+          continue;
+        }
+        const auto p = complex.PointsOf(complex.Cells[t].V);
         ShapeExtremes shape;
-        const bool isPositive = MeasureShape(
-          mesh.Points[v[0]], mesh.Points[v[1]], mesh.Points[v[2]], mesh.Points[v[3]], shape);
+        const bool isPositive = MeasureShape(*p[0], *p[1], *p[2], *p[3], shape);
         if (!isPositive)
         {
           shape = { 1.0, -1.0, 0.0 }; // 0 and 180 degrees
         }
-        const auto value = static_cast<float>(isPositive ? score.Of(shape) : ShapeScore::Inverted);
-        part.Add(shape, value < 1.0f);
-        if (!scores.empty())
-        {
-          scores[t] = value;
-        }
+        complex.Scores[t] =
+          static_cast<float>(isPositive ? complex.Shape.Of(shape) : ShapeScore::Inverted);
+        part.Add(shape, complex.Scores[t] < 1.0f);
       }
       const std::scoped_lock lock(mutex);
       part.AddTo(all);
@@ -540,15 +536,7 @@ ShapeStatistics MeasureAndScore(const SimplexMesh<3>& mesh, const OptimisationOp
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-ShapeStatistics MeasureShapes(const SimplexMesh<3>& mesh, const OptimisationOptions& options,
-  unsigned threads, const std::stop_token& stop)
-{
-  CheckOptions(options);
-  return MeasureAndScore(mesh, options, {}, threads, stop);
-}
-
-//------------------------------------------------------------------------------------------------
-OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domain,
+OptimisationStatistics OptimiseMesh(TetrahedralComplex& complex, const Domain<3>& domain,
   const OptimisationOptions& options, unsigned threads, const std::stop_token& stop)
 {
   CheckOptions(options);
@@ -562,25 +550,18 @@ OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domai
   }
 
   OptimisationStatistics statistics;
-  UninitialisedVector<float> scores(mesh.Simplices.size());
-  statistics.Before = MeasureAndScore(mesh, options, scores, threads, stop);
+  complex.Compact(false, threads, stop);
+  complex.Shape = ScoreOf(options);
+  statistics.Before = MeasureAndScore(complex, threads, stop);
   statistics.After = statistics.Before;
   if (statistics.Before.Poor != 0)
   {
-    const SpareRoom spare{ SpareCells(statistics.Before.Poor),
-      mesh.Points.size() / VerticesPerSpare };
-    TetrahedralComplex complex(mesh, ScoreOf(options), threads, stop, scores, spare);
+    complex.FindKinds(threads, stop);
     complex.FindBorderFaces(domain);
-    if (options.Guard)
-    {
-      complex.Protect(*options.Guard, mesh, threads, stop);
-    }
+    complex.Protect(options.Guard, threads, stop);
     Optimisation(complex, domain, options, threads, limits, statistics).Run();
     ThrowIfStopped(stop);
-    SimplexMesh<3> result;
-    complex.Write(result, threads, stop);
-    statistics.After = MeasureShapes(result, options, threads, stop);
-    mesh = std::move(result);
+    statistics.After = MeasureAndScore(complex, threads, stop);
     statistics.OutOfTime = limits.OutOfTime();
   }
   statistics.Seconds = std::chrono::duration<double>(Clock::now() - start).count();

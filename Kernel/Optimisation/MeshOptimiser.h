@@ -9,10 +9,9 @@
 
 #include "Domain/Domain.h"
 #include "Geometry/ShapeBounds.h"
-#include "Mesh/SimplexMesh.h"
+#include "Optimisation/Complex.h"
 #include "Optimisation/Flips.h"
 #include "Optimisation/Smoother.h"
-#include "Quality/ComponentGuard.h"
 
 #include <array>
 #include <cstddef>
@@ -95,15 +94,14 @@ struct OptimisationStatistics
  * - the position of interfaces: vertices on them move only along them (except by
  *   InterfaceTolerance), and their triangles change only where they are nearly flat.
  *
- * A mesh without poor tetrahedra is unchanged, bit for bit. Otherwise the used points keep their
- * order, and new points come last.
+ * A mesh without poor tetrahedra is unchanged. Otherwise the used points keep their order, and new
+ * points come last. The cells around the object are dropped.
  *
  * Most of the work is done in blocks of vertices, one thread for each block. Each round uses other
  * blocks. One thread does the rest. Blocks do not depend on the number of threads, so neither does
  * the result, unless the time limit ends the work.
  *
- * @param mesh a valid mesh. Points sorted along a space-filling curve make it fast. Unchanged if
- *   this throws.
+ * @param complex its points sorted along a space-filling curve make it fast
  * @param domain the domain that the mesh was made from
  * @param threads 0 means all cores
  * @throws InputError if an option is out of range; Cancelled if a stop was requested;
@@ -112,12 +110,8 @@ struct OptimisationStatistics
  * Complexity: linear in the size of the mesh and in the number of poor tetrahedra. A poor
  * tetrahedron takes about 100 times as long as another one.
  */
-OptimisationStatistics OptimiseMesh(SimplexMesh<3>& mesh, const Domain<3>& domain,
+OptimisationStatistics OptimiseMesh(TetrahedralComplex& complex, const Domain<3>& domain,
   const OptimisationOptions& options, unsigned threads = 1, const std::stop_token& stop = {});
-
-/** Measures shapes against the bounds of the options. */
-ShapeStatistics MeasureShapes(const SimplexMesh<3>& mesh, const OptimisationOptions& options,
-  unsigned threads = 1, const std::stop_token& stop = {});
 
 } // namespace voxplex
 

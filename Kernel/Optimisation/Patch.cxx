@@ -217,8 +217,8 @@ bool Patch<D>::FindNextHolders(
       }
     }
     std::vector<std::uint8_t> areHolders(corners.size());
-    if (!this->Target.Guard->Keeps(this->Target.LabelInImage(label),
-          this->Target.PointsOf(this->Target.Cells[t].V), corners, areHolders))
+    if (!this->Target.Guard->Keeps(
+          label, this->Target.PointsOf(this->Target.Cells[t].V), corners, areHolders))
     {
       return false;
     }

@@ -64,7 +64,7 @@ PentatopeFlip FlipWith(const PentatopeComplex& complex, const PentatopeRules& ru
   {
     return {};
   }
-  const std::int64_t label = complex.LabelValues[complex.LabelOf(s)];
+  const LabelId label = complex.LabelOf(s);
   double oldRatio = 0.0;
   for (std::size_t k = 0; k < flip.NumberOfOld; ++k)
   {

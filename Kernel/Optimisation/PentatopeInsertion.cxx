@@ -261,7 +261,7 @@ bool PentatopeCavity::Keeps(std::uint32_t s) const
 /** Whether new pentatopes keep the bounds. As many as among the old ones may break them, by no more than those. */
 bool PentatopeCavity::IsAllowed(const Point<4>& p) const
 {
-  const std::int64_t label = this->Mesh.LabelValues[this->Mesh.LabelOf(this->Cavity.front())];
+  const LabelId label = this->Mesh.LabelOf(this->Cavity.front());
   double oldRatio = 0.0;
   std::size_t excused = 0;
   for (const std::uint32_t s : this->Cavity)

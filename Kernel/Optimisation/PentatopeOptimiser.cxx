@@ -80,13 +80,12 @@ class Optimiser
 {
 public:
   Optimiser(PentatopeComplex& complex, const PentatopeRules& rules, const MoveLimits<4>& limits,
-    const SimplexMesh<4>& mesh, const PentatopeBounds& bounds, unsigned threads,
-    const std::stop_token& stop)
+    const PentatopeBounds& bounds, unsigned threads, const std::stop_token& stop)
     : Mesh(complex)
     , Target(complex, {}, 0)
     , Rules(rules)
     , Limits(limits)
-    , Original(mesh)
+    , Originals(complex.Points)
     , Bounds(bounds)
     , Threads(threads)
     , Stop(stop)
@@ -125,9 +124,20 @@ private:
   /** Moves each vertex once for the sake of the mean. A second time would gain little more. */
   void RaiseSums()
   {
-    std::vector<std::uint32_t> vertices(this->Original.Points.size());
-    std::iota(vertices.begin(), vertices.end(), 0);
-    std::erase_if(vertices, [this](std::uint32_t v) { return this->Leader(v) != v; });
+    std::uint32_t end = 0; // of the object's vertices, which come first (Complex::Compact())
+    for (std::uint32_t s = 0; s < this->Mesh.Cells.size() && this->Mesh.Labels[s] != 0; ++s)
+    {
+      const PentatopeComplex::Vertices& v = this->Mesh.Cells[s].V;
+      end = std::max(end, *std::max_element(v.begin(), v.end()) + 1);
+    }
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t v = 0; v < end; ++v)
+    {
+      if (this->Leader(v) == v)
+      {
+        vertices.push_back(v);
+      }
+    }
     this->Smooth(std::move(vertices),
       [this](PentatopeSmoother& smoother, std::uint32_t v)
       { return smoother.RaiseSum(v, this->Bounds.Target); });
@@ -350,7 +360,7 @@ private:
         0, first.size(), MovesGrain, this->Threads,
         [&](std::size_t begin, std::size_t end)
         {
-          PentatopeSmoother smoother(this->Mesh, this->Rules, this->Limits, this->Original.Points);
+          PentatopeSmoother smoother(this->Mesh, this->Rules, this->Limits, this->Originals);
           for (std::size_t k = begin; k < end; ++k)
           {
             moves += this->Improve(smoother, first[k], improve) ? 1 : 0;
@@ -553,7 +563,7 @@ private:
   Patch<4> Target; ///< all of the mesh
   const PentatopeRules& Rules;
   const MoveLimits<4>& Limits;
-  const SimplexMesh<4>& Original;
+  const UninitialisedVector<Point<4>> Originals; ///< the points before any is moved
   const PentatopeBounds& Bounds;
   const unsigned Threads;
   const std::stop_token& Stop;
@@ -567,21 +577,17 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-PentatopeStatistics OptimisePentatopes(SimplexMesh<4>& mesh, const Surroundings<4>& outside,
-  const Domain<4>& surfaces, const LabelImage<4>& image, const PentatopeBounds& bounds,
-  unsigned threads, const std::stop_token& stop)
+PentatopeStatistics OptimisePentatopes(PentatopeComplex& complex, const Domain<4>& surfaces,
+  const LabelImage<4>& image, const PentatopeBounds& bounds, unsigned threads,
+  const std::stop_token& stop)
 {
   const MoveLimits<4> limits(image, surfaces, bounds.Planes);
   const PentatopeRules rules(surfaces, bounds);
-  PentatopeComplex complex(mesh, {}, threads, stop, {}, {}, outside);
-  if (bounds.Guard)
-  {
-    complex.Protect(*bounds.Guard, mesh, threads, stop);
-  }
-  const PentatopeStatistics done =
-    Optimiser(complex, rules, limits, mesh, bounds, threads, stop).Run();
-  complex.Write(mesh, threads);
-  return done;
+  complex.Compact(true, threads, stop);
+  complex.FindKinds(threads, stop);
+  complex.ScoreCells(threads, stop);
+  complex.Protect(bounds.Guard, threads, stop);
+  return Optimiser(complex, rules, limits, bounds, threads, stop).Run();
 }
 
 } // namespace voxplex

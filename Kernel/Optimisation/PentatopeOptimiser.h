@@ -9,9 +9,8 @@
 
 #include "Domain/Domain.h"
 #include "Image/LabelImage.h"
-#include "Mesh/SimplexMesh.h"
+#include "Optimisation/Complex.h"
 #include "Optimisation/PentatopeRules.h"
-#include "Optimisation/Surroundings.h"
 
 #include <array>
 #include <cstdint>
@@ -49,8 +48,7 @@ struct PentatopeStatistics
  *
  * Points keep their order; new ones come last. The result does not depend on the number of threads.
  *
- * @param mesh a valid mesh; unchanged if this throws
- * @param outside all pentatopes around it
+ * @param complex with the pentatopes around the object; compact
  * @param surfaces the domain that the mesh was made from
  * @param image that of the domain
  * @param threads 0 means all cores
@@ -58,9 +56,9 @@ struct PentatopeStatistics
  *
  * Complexity: linear in the size of the mesh.
  */
-PentatopeStatistics OptimisePentatopes(SimplexMesh<4>& mesh, const Surroundings<4>& outside,
-  const Domain<4>& surfaces, const LabelImage<4>& image, const PentatopeBounds& bounds,
-  unsigned threads = 1, const std::stop_token& stop = {});
+PentatopeStatistics OptimisePentatopes(PentatopeComplex& complex, const Domain<4>& surfaces,
+  const LabelImage<4>& image, const PentatopeBounds& bounds, unsigned threads = 1,
+  const std::stop_token& stop = {});
 
 } // namespace voxplex
 

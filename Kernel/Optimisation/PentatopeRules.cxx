@@ -16,7 +16,7 @@ constexpr double BelowSize = 1.0 - 1e-9;
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-bool PentatopeRules::Allows(const PentatopeShape& shape, double oldRatio, std::int64_t label) const
+bool PentatopeRules::Allows(const PentatopeShape& shape, double oldRatio, LabelId label) const
 {
   if (!(shape.Ratio <= std::max(this->Bounds.RadiusEdgeRatio, oldRatio)))
   {
@@ -28,12 +28,11 @@ bool PentatopeRules::Allows(const PentatopeShape& shape, double oldRatio, std::i
   }
   // Sizes are asked for where the label is only, as in refinement.
   const Point<4>& centre = shape.Ball.Center;
-  const LabelId there = this->Surfaces.Label(centre);
-  if (this->Surfaces.LabelValue(there) != label)
+  if (this->Surfaces.Label(centre) != label)
   {
     return false;
   }
-  const double size = BelowSize * this->Bounds.Sizing->ElementSize(centre, there);
+  const double size = BelowSize * this->Bounds.Sizing->ElementSize(centre, label);
   return shape.Ball.Radius2 < size * size;
 }
 

@@ -50,9 +50,9 @@ public:
   /**
    * Whether a pentatope keeps the bounds.
    * @param oldRatio the largest ratio of those that it replaces
-   * @param label its value in the image
+   * @param label of the pentatope
    */
-  bool Allows(const PentatopeShape& shape, double oldRatio, std::int64_t label) const;
+  bool Allows(const PentatopeShape& shape, double oldRatio, LabelId label) const;
 
   /** Whether the facet of s across vertex i lies on a time plane. */
   bool IsOnPlane(const PentatopeComplex& complex, std::uint32_t s, unsigned i) const;

@@ -347,8 +347,7 @@ bool PentatopeSmoother::Try(const Point<4>& p, double floor)
 
 bool PentatopeSmoother::Allows(MovedPentatope& one, const PentatopeShape& shape) const
 {
-  const std::int64_t label = this->Target.LabelValues[one.Label];
-  if (this->Rules.Allows(shape, 0.0, label))
+  if (this->Rules.Allows(shape, 0.0, one.Label))
   {
     return true;
   }
@@ -356,7 +355,7 @@ bool PentatopeSmoother::Allows(MovedPentatope& one, const PentatopeShape& shape)
   {
     one.OldRatio = one.ShapeAt(this->Start).Ratio;
   }
-  return this->Rules.Allows(shape, one.OldRatio, label);
+  return this->Rules.Allows(shape, one.OldRatio, one.Label);
 }
 
 void PentatopeSmoother::Take(std::uint32_t v, const Point<4>& p)

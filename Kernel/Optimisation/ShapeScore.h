@@ -160,6 +160,12 @@ public:
   /** Factor of the score beyond the bound of the radius-edge ratio. */
   static constexpr double RadiusEdgePenalty = 1e-3;
 
+  /** Of the default bounds. */
+  ShapeScore()
+    : ShapeScore(18.0, 150.0, 2.5)
+  {
+  }
+
   /**
    * @param smallest, largest bounds of dihedral angles in degrees: 0 < smallest < 60, 90 < largest
    *   < 180

@@ -371,9 +371,8 @@ bool Smoother::FindHeight()
   const auto known = this->Anchors.find(this->Star.Vertex);
   const Point<3>& p = known == this->Anchors.end() ? mesh.Points[this->Star.Vertex] : known->second;
   const LabelId label = this->Image.Label(p);
-  const std::int64_t value = this->Image.LabelValue(label);
-  const bool isBehind = value == mesh.LabelValues[this->Sides[0]];
-  if (!isBehind && value != mesh.LabelValues[this->Sides[1]])
+  const bool isBehind = label == this->Sides[0];
+  if (!isBehind && label != this->Sides[1])
   {
     return false;
   }
@@ -593,10 +592,9 @@ bool Smoother::Project(const Point<3>& raw, double length, Point<3>& p) const
     return false;
   }
   const double beside = Beside * this->ShortestEdge;
-  const auto valueAt = [&](double offset)
-  { return this->Image.LabelValue(this->Image.Label(Along(z, offset, this->Normal))); };
-  return valueAt(-beside) == mesh.LabelValues[this->Sides[0]] &&
-    valueAt(beside) == mesh.LabelValues[this->Sides[1]];
+  const auto labelAt = [&](double offset)
+  { return this->Image.Label(Along(z, offset, this->Normal)); };
+  return labelAt(-beside) == this->Sides[0] && labelAt(beside) == this->Sides[1];
 }
 
 bool Smoother::FanAllows(const Point<3>& p) const

@@ -23,9 +23,8 @@ constexpr double MostElements = 100.0;
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-template <typename Elements>
 std::vector<std::uint8_t> ComponentGuard<D>::FindHolders(
-  const Elements& elements, unsigned threads, const std::stop_token& stop)
+  const LabelledCells<D>& elements, unsigned threads, const std::stop_token& stop)
 {
   std::vector<std::uint8_t> holders;
   if (this->Sets.empty())
@@ -33,7 +32,7 @@ std::vector<std::uint8_t> ComponentGuard<D>::FindHolders(
     return holders;
   }
   std::vector<double> numbers(this->Image.Values().size()); // of elements, by label
-  typename Elements::LabelReader labelOf(elements);
+  typename LabelledCells<D>::LabelReader labelOf(elements);
   for (std::size_t s = 0; s < elements.Size(); ++s)
   {
     ++numbers[labelOf(s)];
@@ -128,13 +127,5 @@ bool ComponentGuard<D>::Keeps(LabelId label, const Corners& before, std::span<co
 
 template class ComponentGuard<3>;
 template class ComponentGuard<4>;
-template std::vector<std::uint8_t> ComponentGuard<3>::FindHolders(
-  const MeshElements<3>&, unsigned, const std::stop_token&);
-template std::vector<std::uint8_t> ComponentGuard<4>::FindHolders(
-  const MeshElements<4>&, unsigned, const std::stop_token&);
-template std::vector<std::uint8_t> ComponentGuard<3>::FindHolders(
-  const LabelledTriangulation<3>&, unsigned, const std::stop_token&);
-template std::vector<std::uint8_t> ComponentGuard<4>::FindHolders(
-  const LabelledTriangulation<4>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex

@@ -8,8 +8,7 @@
 #define voxplex_ComponentGuard_h
 
 #include "Image/Components.h"
-#include "Mesh/LabelledTriangulation.h"
-#include "Mesh/MeshElements.h"
+#include "Mesh/LabelledCells.h"
 #include "Quality/ElementVoxels.h"
 
 #include <array>
@@ -59,24 +58,12 @@ public:
   /**
    * Chooses the components to guard, and their holders. Components without an element are lost
    * already, and not guarded.
-   * @param elements SimplexMesh, in the frame of the image; MeshElements; or in 4D a
-   *   LabelledTriangulation
    * @param threads 0 means all cores; the result does not depend on it
    * @return for each element 1 if it is a holder, or else 0; empty if nothing is guarded
    * @throws Cancelled if a stop was requested before the end; std::bad_alloc
    */
-  template <typename Elements>
   std::vector<std::uint8_t> FindHolders(
-    const Elements& elements, unsigned threads, const std::stop_token& stop = {});
-
-  std::vector<std::uint8_t> FindHolders(
-    const SimplexMesh<D>& mesh, unsigned threads, const std::stop_token& stop = {})
-  {
-    return this->FindHolders(MeshElements<D>(mesh, this->Image), threads, stop);
-  }
-
-  /** The id of a label value; 0 if the image does not have it. */
-  LabelId LabelOf(std::int64_t value) const { return LabelIdOf(value, this->Image); }
+    const LabelledCells<D>& elements, unsigned threads, const std::stop_token& stop = {});
 
   /**
    * Whether new elements hold all guarded components that an old one may hold.

@@ -4,6 +4,7 @@
 
 #include "Base/GridIndex.h"
 #include "Image/BitMask.h"
+#include "Mesh/LabelledCells.h"
 #include "Mesh/MeshElements.h"
 #include "Parallel/ParallelFor.h"
 #include "Quality/ElementVoxels.h"
@@ -268,12 +269,8 @@ template std::vector<std::uint32_t> FindLostComponents<4>(const Components<4>&,
   const LabelImage<4>&, const LabelledTriangulation<4>&, const std::vector<bool>&, unsigned,
   const std::stop_token&);
 template std::vector<std::uint32_t> FindFirstWitnesses(const Components<3>&, const LabelImage<3>&,
-  const MeshElements<3>&, const std::vector<bool>&, unsigned, const std::stop_token&);
+  const LabelledCells<3>&, const std::vector<bool>&, unsigned, const std::stop_token&);
 template std::vector<std::uint32_t> FindFirstWitnesses(const Components<4>&, const LabelImage<4>&,
-  const MeshElements<4>&, const std::vector<bool>&, unsigned, const std::stop_token&);
-template std::vector<std::uint32_t> FindFirstWitnesses(const Components<3>&, const LabelImage<3>&,
-  const LabelledTriangulation<3>&, const std::vector<bool>&, unsigned, const std::stop_token&);
-template std::vector<std::uint32_t> FindFirstWitnesses(const Components<4>&, const LabelImage<4>&,
-  const LabelledTriangulation<4>&, const std::vector<bool>&, unsigned, const std::stop_token&);
+  const LabelledCells<4>&, const std::vector<bool>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex

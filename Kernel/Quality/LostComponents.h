@@ -49,7 +49,7 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
  * FindLostComponents() sees it; if there is none, the first of those that have it within one voxel.
  * For the rest, see FindLostComponents().
  *
- * @param elements MeshElements, or in 4D a LabelledTriangulation
+ * @param elements LabelledCells
  * @return by component; None if it is lost or not wanted
  */
 template <int D, typename Elements>

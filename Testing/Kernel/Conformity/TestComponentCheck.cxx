@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Connected components against a flood fill, bounds of delta, and that no component is lost.
 #include "Base/Error.h"
+#include "ComplexOf.h"
 #include "Conformity/ComponentCheck.h"
 #include "Domain/ImageDomain.h"
 #include "Image/Components.h"
@@ -589,8 +590,9 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
   wanted[island] = true;
   const auto witness = [&](unsigned threads)
   {
-    return FindFirstWitnesses(
-      components, islands.Image, MeshElements<3>(mesh, islands.Image), wanted, threads)[island];
+    const Complex<3> complex = checks::ComplexOf<3>(mesh, &domain);
+    return FindFirstWitnesses(components, islands.Image,
+      LabelledCells<3>(complex.Points, complex.Cells, complex.Labels), wanted, threads)[island];
   };
   ASSERT_NE(witness(1), None);
   EXPECT_EQ(witness(1), witness(3));

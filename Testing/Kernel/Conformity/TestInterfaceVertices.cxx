@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The vertices on the interfaces of a triangulation are marked, and stay so while it changes.
 #include "Base/Error.h"
+#include "ComplexOf.h"
 #include "Conformity/InterfaceVertices.h"
 #include "Conformity/ManifoldLabels.h"
 #include "Domain/ImageDomain.h"
 #include "InterfaceChecks.h"
-#include "Mesh/MeshExtraction.h"
 #include "RefinementChecks.h"
 #include "RepairTesting.h"
 

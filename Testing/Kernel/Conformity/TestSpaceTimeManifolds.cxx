@@ -3,8 +3,8 @@
 // Boundaries of labels in space-time are 3-manifolds at all triangles, on any labels, also where the mesh ends flat.
 #include "CallableSize.h"
 #include "Conformity/ManifoldLabels.h"
-#include "Conformity/OpenRidges.h"
 #include "MeshChecks.h"
+#include "Optimisation/OpenRidges.h"
 #include "Refinement/Rules/Rules4D.h"
 #include "RefinementChecks.h"
 #include "RepairTesting.h"
@@ -63,56 +63,29 @@ std::vector<InterfaceRidge<4>> BadTriangles(const SimplexMesh<4>& mesh)
   return FindNonManifoldRidges<4>(mesh.Facets, mesh.FacetLabels, mesh.Points.size());
 }
 
-/** The bad triangles of a triangulation, with vertex ids. */
-std::vector<InterfaceRidge<4>> BadTriangles(
-  const SimplexMesh<4>& mesh, const UninitialisedVector<std::uint32_t>& numbers)
-{
-  std::vector<VertexId> vertexOf(mesh.Points.size());
-  for (VertexId v = 0; v < numbers.size(); ++v)
-  {
-    if (numbers[v] != None)
-    {
-      vertexOf[numbers[v]] = v;
-    }
-  }
-  std::vector<InterfaceRidge<4>> bad = BadTriangles(mesh);
-  for (InterfaceRidge<4>& triangle : bad)
-  {
-    for (std::uint32_t& v : triangle.Vertices)
-    {
-      v = vertexOf[v];
-    }
-    std::sort(triangle.Vertices.begin(), triangle.Vertices.end());
-  }
-  return bad;
-}
-
 /** A mesh before its triangles are opened, and after. */
 struct Opened
 {
   Opened(const Triangulation<4>& triangulation, const Domain<4>& domain,
     const SimplexLabels& labels, unsigned threads = 1)
   {
-    ExtractMesh<4>(triangulation, domain, labels, this->Before, threads, {}, {}, &this->Numbers);
-    this->Triangles = BadTriangles(this->Before, this->Numbers);
-    this->Result = OpenRidges<4>(triangulation, domain, labels, this->Triangles);
-    ExtractMesh<4>(triangulation, domain, labels, this->After, threads, {},
-      { {}, this->Result.Parts }, &this->Numbers);
+    ExtractMesh<4>(triangulation, domain, labels, this->Before, threads);
+    this->Triangles = BadTriangles(this->Before); // points have the numbers of the complex
+    UninitialisedVector<std::uint32_t> numbers;
+    PentatopeComplex complex(triangulation, labels, {}, numbers, threads);
+    this->Left = OpenRidges<4>(complex, domain, this->Triangles);
+    complex.Write(ValuesOf(domain, labels), this->After, threads);
   }
 
   void Check() const
   {
-    EXPECT_TRUE(this->Result.Left.empty());
+    EXPECT_TRUE(this->Left.empty());
     EXPECT_TRUE(BadTriangles(this->After).empty());
     EXPECT_EQ(FindManifoldDefects(this->After).Triangles, 0u); // code of its own
     const std::vector<std::string> complaints = Complaints(this->After);
     EXPECT_TRUE(complaints.empty()) << complaints.front();
     const std::set<std::int64_t> labels(this->Before.Labels.begin(), this->Before.Labels.end());
     EXPECT_EQ(std::set<std::int64_t>(this->After.Labels.begin(), this->After.Labels.end()), labels);
-    for (std::size_t v = 0; v < this->Numbers.size(); ++v)
-    {
-      ASSERT_TRUE(this->Numbers[v] == None || this->Numbers[v] < this->After.Points.size());
-    }
     const std::set<Point<4>> points(this->After.Points.begin(), this->After.Points.end());
     EXPECT_EQ(points.size(), this->After.Points.size());
     for (const Point<4>& p : this->Before.Points)
@@ -122,10 +95,9 @@ struct Opened
   }
 
   std::vector<InterfaceRidge<4>> Triangles;
-  OpenedRidges<4> Result;
+  std::vector<InterfaceRidge<4>> Left;
   SimplexMesh<4> Before;
   SimplexMesh<4> After;
-  UninitialisedVector<std::uint32_t> Numbers;
 };
 
 /** A refined triangulation, and the object in it. */
@@ -221,7 +193,7 @@ TEST(SpaceTimeRidges, KeepFlatEnds)
     for (const InterfaceRidge<4>& triangle : opened.Triangles)
     {
       onEnds += std::all_of(triangle.Vertices.begin(), triangle.Vertices.end(),
-        [&, end = last](VertexId v) { return refined.Mesh().Position(v)[3] == end; });
+        [&, end = last](std::uint32_t v) { return opened.Before.Points[v][3] == end; });
     }
     EXPECT_GT(onEnds, 0u);
     for (const double end : { first, last })
@@ -259,7 +231,6 @@ TEST(SpaceTimeRidges, DoNotDependOnThreads)
   EXPECT_EQ(one.After.Simplices, three.After.Simplices);
   EXPECT_EQ(one.After.Labels, three.After.Labels);
   EXPECT_EQ(one.After.Facets, three.After.Facets);
-  EXPECT_EQ(one.Numbers, three.Numbers);
 }
 
 //------------------------------------------------------------------------------------------------

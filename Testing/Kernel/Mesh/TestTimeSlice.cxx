@@ -3,8 +3,8 @@
 // Slices against what is known of them: volumes, and that cells fit together.
 #include "../../Phantoms/SpaceTimePhantoms.h"
 #include "Base/Error.h"
+#include "ComplexOf.h"
 #include "Delaunay/Triangulation.h"
-#include "Mesh/MeshExtraction.h"
 #include "Mesh/TimeSlice.h"
 #include "MeshRuns.h"
 #include "TimeSliceChecks.h"

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Interfaces of images that have an object at all their borders lie within the box of these borders, however sheared.
+#include "ComplexOf.h"
 #include "Domain/ImageDomain.h"
 #include "MeshChecks.h"
 #include "MeshRuns.h"
@@ -118,7 +119,7 @@ TEST(BorderBounds, HoldInOptimisation)
     for (const double delta : { 3.0, 5.0 })
     {
       SimplexMesh<3> mesh = MeshOf(image, WithDelta<3>(delta));
-      EXPECT_GT(OptimiseMesh(mesh, domain, eager, 1).Smoothing.MovesOffInterfaces, 20u);
+      EXPECT_GT(checks::OptimiseMesh(mesh, domain, eager, 1).Smoothing.MovesOffInterfaces, 20u);
       ExpectSound(mesh);
       EXPECT_LT(LargestDistanceOutside(mesh, grid), 1e-5)
         << "shear " << shear << ", delta " << delta;

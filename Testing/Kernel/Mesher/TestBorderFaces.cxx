@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the border of a 3D image cuts an object: flat faces and straight edges of the mesh. For the domain see
 // Domain/TestImageBorder.cxx.
+#include "ComplexOf.h"
 #include "Conformity/ManifoldRepair.h"
 #include "Domain/ImageDomain.h"
 #include "Image/IsosurfaceImage.h"
-#include "Mesh/MeshExtraction.h"
 #include "MeshChecks.h"
 #include "MeshRuns.h"
 #include "Optimisation/MeshOptimiser.h"
@@ -393,7 +393,8 @@ TEST(BorderFaces, StayFlatInOptimisation)
       {
         SimplexMesh<3> after = before;
         const OptimisationOptions optimisation = wild ? Wild() : OptimisationOptions();
-        const OptimisationStatistics statistics = OptimiseMesh(after, domain, optimisation, 1);
+        const OptimisationStatistics statistics =
+          checks::OptimiseMesh(after, domain, optimisation, 1);
         ExpectSound(after);
         if (wild)
         {
@@ -439,7 +440,7 @@ TEST(BorderFaces, KeepTheirVerticesInOptimisation)
       SimplexMesh<3> mesh = Mesh(image, options);
       const std::size_t before = CountOnBorder(mesh, domain);
       EXPECT_GT(before, 15u);
-      EXPECT_GT(OptimiseMesh(mesh, domain, Wild(), 1).Smoothing.SurfaceMoves, 0u);
+      EXPECT_GT(checks::OptimiseMesh(mesh, domain, Wild(), 1).Smoothing.SurfaceMoves, 0u);
       EXPECT_GE(CountOnBorder(mesh, domain), before) << height << " " << delta;
     }
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Optimised meshes of phantoms: shapes, and all that must stay as it was.
 #include "Base/Error.h"
+#include "ComplexOf.h"
 #include "Domain/ImageDomain.h"
 #include "MeshChecks.h"
 #include "MeshRuns.h"
@@ -216,7 +217,7 @@ protected:
     , After(this->Before)
   {
     this->Options.InterfaceTolerance = 0.1;
-    this->Statistics = OptimiseMesh(this->After, this->Domain, this->Options);
+    this->Statistics = checks::OptimiseMesh(this->After, this->Domain, this->Options);
   }
 
   LabelImage<3> Image;
@@ -250,7 +251,7 @@ TEST_P(OptimisedPhantom, ReachesAllBounds)
   OptimisationOptions options;
   options.InterfaceTolerance = 0.25; // as the mesher has it
   SimplexMesh<3> mesh = this->Before;
-  const OptimisationStatistics statistics = OptimiseMesh(mesh, this->Domain, options);
+  const OptimisationStatistics statistics = checks::OptimiseMesh(mesh, this->Domain, options);
   EXPECT_EQ(statistics.After.Poor, 0u)
     << statistics.After.SmallestDihedralAngle << " to " << statistics.After.LargestDihedralAngle;
   EXPECT_EQ(
@@ -322,7 +323,7 @@ TEST_P(OptimisedPhantom, KeepsInterfaceVerticesOnInterfaces)
   OptimisationOptions strict = this->Options;
   strict.InterfaceTolerance = 0.0;
   SimplexMesh<3> mesh = this->Before;
-  const OptimisationStatistics statistics = OptimiseMesh(mesh, this->Domain, strict);
+  const OptimisationStatistics statistics = checks::OptimiseMesh(mesh, this->Domain, strict);
   EXPECT_EQ(statistics.Smoothing.MovesOffInterfaces, 0u);
   EXPECT_EQ(VerticesOffInterfaces(mesh, this->Before, this->Domain, 0.0), 0u);
 }
@@ -336,14 +337,14 @@ TEST_P(OptimisedPhantom, DoesNotChangeWhatHasNothingPoor)
   kept.LargestDihedralAngle = shapes.LargestDihedralAngle + 0.01;
   kept.Shape.RadiusEdgeRatio = shapes.LargestRadiusEdgeRatio + 0.01;
   SimplexMesh<3> again = this->After;
-  const OptimisationStatistics statistics = OptimiseMesh(again, this->Domain, kept);
+  const OptimisationStatistics statistics = checks::OptimiseMesh(again, this->Domain, kept);
   checks::ExpectSame(again, this->After);
   EXPECT_EQ(statistics.Before.Poor, 0u);
   EXPECT_EQ(statistics.Passes, 0u);
 
   // And one that it just breaks.
   kept.SmallestDihedralAngle = shapes.SmallestDihedralAngle + 0.01;
-  const OptimisationStatistics more = OptimiseMesh(again, this->Domain, kept);
+  const OptimisationStatistics more = checks::OptimiseMesh(again, this->Domain, kept);
   EXPECT_GT(more.Before.Poor, 0u);
   EXPECT_GT(more.Passes, 0u);
 }
@@ -365,7 +366,7 @@ TEST_P(OptimisedPhantom, WorstShapeNeverGetsWorse)
       square(options.Shape.RadiusEdgeRatio / survey.LargestRadiusEdgeRatio) });
   };
   SimplexMesh<3> mesh = this->Before;
-  const OptimisationStatistics statistics = OptimiseMesh(mesh, this->Domain, options);
+  const OptimisationStatistics statistics = checks::OptimiseMesh(mesh, this->Domain, options);
   EXPECT_GT(worst(statistics.After), worst(statistics.Before));
   EXPECT_LT(statistics.After.Poor, statistics.Before.Poor);
   checks::ExpectSound(mesh);
@@ -378,7 +379,8 @@ TEST_P(OptimisedPhantom, WorstShapeNeverGetsWorse)
 
 TEST_P(OptimisedPhantom, SmoothingNeverLowersTheWorstOfAStar)
 {
-  TetrahedralComplex complex(this->Before, ShapeScore(40.0, 120.0, 2.5), 1, {});
+  TetrahedralComplex complex =
+    checks::ComplexOf(this->Before, ShapeScore(40.0, 120.0, 2.5), &this->Domain);
   const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
   Patch patch(complex, blocks, 0);
   Smoother smoother(patch, this->Domain, InterfaceRules(30.0, 20.0, 30.0), 0.05);
@@ -420,8 +422,8 @@ TEST(MeshOptimiser, ResultDoesNotDependOnThreads)
   options.InterfaceTolerance = 0.05;
   SimplexMesh<3> one = before;
   SimplexMesh<3> four = before;
-  const OptimisationStatistics statistics = OptimiseMesh(one, domain, options, 1);
-  OptimiseMesh(four, domain, options, 4);
+  const OptimisationStatistics statistics = checks::OptimiseMesh(one, domain, options, 1);
+  checks::OptimiseMesh(four, domain, options, 4);
   checks::ExpectSame(one, four);
   // Each kind of operation had work.
   EXPECT_GT(statistics.Flips.EdgeRemovals, 0u);
@@ -443,7 +445,7 @@ TEST(MeshOptimiser, GivesUpWhenAskedTo)
   SimplexMesh<3> mesh = before;
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_THROW(OptimiseMesh(mesh, domain, {}, 1, stop.get_token()), Cancelled);
+  EXPECT_THROW(checks::OptimiseMesh(mesh, domain, {}, 1, stop.get_token()), Cancelled);
   checks::ExpectSame(mesh, before);
 }
 
@@ -491,11 +493,12 @@ TEST(MeshOptimiser, IsCancelledWhileItWorks)
   SimplexMesh<3> mesh = before;
   OptimisationOptions options;
   options.SmallestDihedralAngle = 40.0;
-  OptimiseMesh(mesh, stopping, options);
+  checks::OptimiseMesh(mesh, stopping, options);
   const int calls = std::exchange(stopping.Calls, 0);
   stopping.Stop = std::stop_source();
   mesh = before;
-  EXPECT_THROW(OptimiseMesh(mesh, stopping, options, 1, stopping.Stop.get_token()), Cancelled);
+  EXPECT_THROW(
+    checks::OptimiseMesh(mesh, stopping, options, 1, stopping.Stop.get_token()), Cancelled);
   EXPECT_GE(stopping.Calls, 100);
   EXPECT_LT(stopping.Calls, calls / 2);
   checks::ExpectSame(mesh, before);
@@ -508,13 +511,13 @@ TEST(MeshOptimiser, KeepsToTheTimeLimit)
   SimplexMesh<3> mesh = Mesh(image, 0.8);
   OptimisationOptions options;
   options.Seconds = 1e-9; // over before work begins
-  const OptimisationStatistics statistics = OptimiseMesh(mesh, domain, options);
+  const OptimisationStatistics statistics = checks::OptimiseMesh(mesh, domain, options);
   EXPECT_TRUE(statistics.OutOfTime);
   EXPECT_EQ(statistics.Flips.EdgeRemovals, 0u);
   EXPECT_EQ(statistics.After.Poor, statistics.Before.Poor);
   checks::ExpectSound(mesh);
   options.Seconds = 1e6;
-  const OptimisationStatistics more = OptimiseMesh(mesh, domain, options);
+  const OptimisationStatistics more = checks::OptimiseMesh(mesh, domain, options);
   EXPECT_FALSE(more.OutOfTime);
   EXPECT_LT(more.After.Poor, more.Before.Poor);
 }
@@ -528,13 +531,13 @@ TEST(MeshOptimiser, RefusesBadOptions)
   {
     OptimisationOptions options;
     options.*option = value;
-    EXPECT_THROW(OptimiseMesh(mesh, domain, options), InputError) << value;
+    EXPECT_THROW(checks::OptimiseMesh(mesh, domain, options), InputError) << value;
   };
   const auto refusedShape = [&](double ShapeBounds::*bound, double value)
   {
     OptimisationOptions options;
     options.Shape.*bound = value;
-    EXPECT_THROW(OptimiseMesh(mesh, domain, options), InputError) << value;
+    EXPECT_THROW(checks::OptimiseMesh(mesh, domain, options), InputError) << value;
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   using O = OptimisationOptions;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Single operations of mesh optimisation on meshes of a few tetrahedra, and the score that steers them.
 #include "BallDomain.h"
+#include "ComplexOf.h"
 #include "Domain/ImageDomain.h"
 #include "MeshChecks.h"
 #include "MeshRuns.h"
@@ -37,9 +38,7 @@ SimplexMesh<3> MeshOf(const std::vector<Point<3>>& points,
   mesh.Points.assign(points.begin(), points.end());
   mesh.Simplices.assign(tetrahedra.begin(), tetrahedra.end());
   mesh.Labels.assign(labels.begin(), labels.end());
-  SimplexMesh<3> whole;
-  TetrahedralComplex(mesh, ShapeScore(15.0, 155.0, 2.5), 1, {}).Write(whole);
-  return whole;
+  return checks::Written(checks::ComplexOf<3>(mesh));
 }
 
 /** n points on the unit circle around the axis from a = 0 to b = 1, and the tetrahedra around ab. */
@@ -59,7 +58,7 @@ SimplexMesh<3> Ring(unsigned n, double halfLength, const std::vector<std::int64_
 OptimisationStatistics Optimise(SimplexMesh<3>& mesh, const OptimisationOptions& options = {})
 {
   const checks::BallDomain domain(100.0);
-  const OptimisationStatistics statistics = OptimiseMesh(mesh, domain, options);
+  const OptimisationStatistics statistics = checks::OptimiseMesh(mesh, domain, options);
   checks::ExpectSound(mesh);
   return statistics;
 }
@@ -186,7 +185,7 @@ TEST(Patch, FindsRingsAndStars)
   for (const unsigned n : { 3u, 4u, 7u })
   {
     const SimplexMesh<3> mesh = Ring(n, 0.5, std::vector<std::int64_t>(n, 1));
-    TetrahedralComplex complex(mesh, ShapeScore(15.0, 155.0, 2.5), 1, {});
+    TetrahedralComplex complex = checks::ComplexOf(mesh, ShapeScore(15.0, 155.0, 2.5));
     const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
     Patch patch(complex, blocks, 0);
     EdgeRing ring;
@@ -224,7 +223,7 @@ TEST(Patch, FindsRingsAndStars)
 TEST(Patch, LeavesOtherBlocksAlone)
 {
   const SimplexMesh<3> mesh = Ring(4, 0.5, { 1, 1, 1, 1 });
-  TetrahedralComplex complex(mesh, ShapeScore(15.0, 155.0, 2.5), 1, {});
+  TetrahedralComplex complex = checks::ComplexOf(mesh, ShapeScore(15.0, 155.0, 2.5));
   std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
   blocks[4] = 1;
   Patch patch(complex, blocks, 0);
@@ -240,7 +239,7 @@ TEST(Patch, FindsStarsThatShareNoFacet)
   const SimplexMesh<3> mesh = MeshOf({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
                                        { -1, 0, 0 }, { 0, -1, 0 }, { 0, 0, -1 } },
     { { 0, 1, 2, 3 }, { 0, 5, 4, 6 } }, { 1, 1 });
-  TetrahedralComplex complex(mesh, ShapeScore(15.0, 155.0, 2.5), 1, {});
+  TetrahedralComplex complex = checks::ComplexOf(mesh, ShapeScore(15.0, 155.0, 2.5));
   const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
   Patch patch(complex, blocks, 0);
   VertexStar<3> star;
@@ -254,7 +253,7 @@ TEST(Patch, FindsStarsThatShareNoFacet)
 TEST(Patch, RefusesWhatItHasNoRoomFor)
 {
   const SimplexMesh<3> mesh = Ring(3, 0.5, { 1, 1, 1 });
-  TetrahedralComplex complex(mesh, ShapeScore(15.0, 155.0, 2.5), 1, {});
+  TetrahedralComplex complex = checks::ComplexOf(mesh, ShapeScore(15.0, 155.0, 2.5));
   const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
   Patch patch(complex, blocks, 0);
   const std::uint32_t old[] = { 0 };
@@ -262,15 +261,13 @@ TEST(Patch, RefusesWhatItHasNoRoomFor)
   const NewCell<3> two[] = { one, one };
   EXPECT_FALSE(patch.Replace(old, two));
   EXPECT_TRUE(patch.Replace(old, std::span(two).first(1)));
-  SimplexMesh<3> same;
-  complex.Write(same);
-  checks::ExpectSound(same);
+  checks::ExpectSound(checks::Written(complex));
 }
 
 TEST(TetrahedralComplex, TellsKindsOfVertices)
 {
   const auto kinds = [](const std::vector<std::int64_t>& labels)
-  { return TetrahedralComplex(Ring(4, 0.5, labels), ShapeScore(15.0, 155.0, 2.5), 1, {}).Kinds; };
+  { return checks::ComplexOf(Ring(4, 0.5, labels), ShapeScore(15.0, 155.0, 2.5)).Kinds; };
   for (const VertexRole kind : kinds({ 1, 1, 1, 1 }))
   {
     EXPECT_EQ(kind, VertexRole::Surface);
@@ -291,7 +288,7 @@ TEST(TetrahedralComplex, KindsHoldAfterFlips)
   options.Shape.Slivers.Angle = 0.0; // leaves many to flips
   const SimplexMesh<3> mesh = checks::MeshOf(image, options);
   const ShapeScore score(30.0, 130.0, 2.0); // most can be better
-  TetrahedralComplex complex(mesh, score, 1, {});
+  TetrahedralComplex complex = checks::ComplexOf(mesh, score);
   complex.FindBorderFaces(domain);
   const std::size_t cells = complex.Cells.size();
   complex.AddCells(cells);
@@ -315,9 +312,9 @@ TEST(TetrahedralComplex, KindsHoldAfterFlips)
   EXPECT_GT(flips.Counts().Dropped, 100u);
 
   SimplexMesh<3> after;
-  TetrahedralComplex(complex).Write(after);
+  after = checks::Written(complex);
   checks::ExpectSound(after);
-  TetrahedralComplex fresh(after, score, 1, {});
+  TetrahedralComplex fresh = checks::ComplexOf(after, score);
   fresh.FindBorderFaces(domain);
   std::vector<bool> isUsed(complex.Points.size());
   for (const auto& cell : complex.Cells)
@@ -415,7 +412,7 @@ TEST(Flips, JoinNoPartsThatTouch)
       }
     }
     const SimplexMesh<3> mesh = MeshOf(points, tetrahedra, labels);
-    TetrahedralComplex complex(mesh, ShapeScore(50.0, 95.0, 1.0), 1, {});
+    TetrahedralComplex complex = checks::ComplexOf(mesh, ShapeScore(50.0, 95.0, 1.0));
     const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
     Patch patch(complex, blocks, 0);
     const std::uint32_t vertices[] = { a, b, c, d };
@@ -448,7 +445,7 @@ TEST(Flips, DropNothingThatIsNotFlat)
     const SimplexMesh<3> mesh =
       MeshOf({ { 1, 0, height }, { -1, 0, height }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 3, -1 } },
         { { 0, 1, 2, 3 }, { 0, 3, 2, 4 }, { 1, 2, 3, 4 } }, { 2, 2, 2 });
-    TetrahedralComplex complex(mesh, ShapeScore(15.0, 100.0, 2.5), 1, {});
+    TetrahedralComplex complex = checks::ComplexOf(mesh, ShapeScore(15.0, 100.0, 2.5));
     EXPECT_LT(complex.Scores[0], 1.0);
     const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
     Patch patch(complex, blocks, 0);
@@ -479,7 +476,7 @@ TEST(Flips, MakeNoSmallAnglesOffJunctions)
     {
       SCOPED_TRACE(testing::Message() << isMirrored << hasJunction);
       const SimplexMesh<3> mesh = Quadrilateral{ isMirrored, hasJunction }.Mesh();
-      TetrahedralComplex complex(mesh, ShapeScore(15.0, 155.0, 2.5), 1, {});
+      TetrahedralComplex complex = checks::ComplexOf(mesh, ShapeScore(15.0, 155.0, 2.5));
       EXPECT_EQ(complex.Kinds[0] == VertexRole::Fixed, hasJunction);
       EXPECT_EQ(complex.Kinds[1], VertexRole::Surface);
       const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
@@ -500,10 +497,9 @@ namespace
 /** Inserts a vertex inside tetrahedron 0. False if it is refused. */
 bool InsertInside(SimplexMesh<3>& mesh, const OptimisationOptions& options)
 {
-  TetrahedralComplex complex(mesh,
+  TetrahedralComplex complex = checks::ComplexOf(mesh,
     ShapeScore(
-      options.SmallestDihedralAngle, options.LargestDihedralAngle, options.Shape.RadiusEdgeRatio),
-    1, {});
+      options.SmallestDihedralAngle, options.LargestDihedralAngle, options.Shape.RadiusEdgeRatio));
   const auto vertices = static_cast<std::uint32_t>(complex.Points.size());
   const auto cells = static_cast<std::uint32_t>(complex.Cells.size());
   complex.AddVertices(1);
@@ -518,7 +514,7 @@ bool InsertInside(SimplexMesh<3>& mesh, const OptimisationOptions& options)
   Smoother smoother(patch, domain, InterfaceRules(30.0, 20.0, 30.0), 0.0);
   const bool isInserted = smoother.InsertInside(0);
   EXPECT_EQ(smoother.Counts().Insertions, isInserted ? 1u : 0u);
-  complex.Write(mesh);
+  mesh = checks::Written(complex);
   checks::ExpectSound(mesh);
   return isInserted;
 }

@@ -31,7 +31,7 @@ TEST(PentatopeInsertion, FillsCavitiesWithBetterPentatopes)
   SimplexMesh<4> mesh = Mesh(image, UsualOptions(3.0), false).Mesh;
   const SimplexMesh<4> before = mesh;
   const PentatopeBounds bounds;
-  PentatopeComplex complex(mesh, {}, 1, {});
+  PentatopeComplex complex = checks::ScoredComplexOf(mesh);
   const PentatopeRules rules(domain, bounds);
   PentatopeCavity cavity(complex, rules);
   complex.Goal = bounds.Target;
@@ -76,10 +76,10 @@ TEST(PentatopeInsertion, FillsCavitiesWithBetterPentatopes)
     ASSERT_NEAR(hypervolume, 0.0, 1e-6);
   }
   EXPECT_EQ(made, 40u);
-  complex.Write(mesh);
+  mesh = checks::Written(complex);
   EXPECT_EQ(mesh.Points.size(), before.Points.size() + made);
   ExpectSound(mesh);
-  ASSERT_EQ(mesh.Facets, before.Facets);
+  ASSERT_EQ(InterfacesOf(mesh), InterfacesOf(before));
 }
 
 // One point is inside of five pentatopes, near a facet. A cavity of all five would be best without it.
@@ -92,7 +92,7 @@ TEST(PentatopeInsertion, BreaksNoMoreBoundsThanBefore)
   const SimplexMesh<4> mesh = Mesh(image, UsualOptions(3.0), false).Mesh;
   PentatopeBounds bounds;
   bounds.RadiusEdgeRatio = 1.1;
-  PentatopeComplex complex(mesh, {}, 1, {});
+  PentatopeComplex complex = checks::ScoredComplexOf(mesh);
   complex.Goal = bounds.Target;
   const auto breaks = [&](const std::array<const Point<4>*, 5>& points)
   { return ShapeOf(points).Ratio > bounds.RadiusEdgeRatio ? 1 : 0; };
@@ -137,7 +137,7 @@ TEST(PentatopeComplex, StarsFollowChanges)
   const ImageDomain<4> domain(image, 1.0);
   const SimplexMesh<4> mesh = Mesh(image, UsualOptions(4.0), false).Mesh;
   const PentatopeBounds bounds;
-  PentatopeComplex complex(mesh, {}, 1, {});
+  PentatopeComplex complex = checks::ScoredComplexOf(mesh);
   complex.Goal = 2.0 * bounds.Target;
   const PentatopeRules rules(domain, bounds);
   PentatopeCavity cavity(complex, rules);
@@ -214,7 +214,7 @@ TEST(PentatopeInsertion, LosesNoVertex)
   }
   PentatopeBounds bounds;
   bounds.RadiusEdgeRatio = 100.0;
-  PentatopeComplex complex(mesh, {}, 1, {});
+  PentatopeComplex complex = checks::ScoredComplexOf(mesh);
   complex.Goal = bounds.Target;
   ASSERT_TRUE(complex.IsPoor(4));
   const PentatopeInsertion insertion =
@@ -239,7 +239,7 @@ TEST(PentatopeInsertion, EndsARoundThatIsInVain)
   SimplexMesh<4> mesh = Mesh(image, UsualOptions(1.5), false).Mesh;
   PentatopeBounds bounds;
   bounds.Target = 0.5; // out of reach for most
-  const PentatopeStatistics done = OptimisePentatopes(mesh, {}, domain, image, bounds, 1, {});
+  const PentatopeStatistics done = checks::OptimisePentatopes(mesh, domain, image, bounds, 1, {});
   EXPECT_GT(done.PoorAfter, 10000u);
   EXPECT_LT(done.InsertionsTried, 100u) << "of " << done.Insertions << " made";
 }

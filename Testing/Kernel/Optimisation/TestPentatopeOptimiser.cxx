@@ -56,8 +56,7 @@ std::size_t Poor(const std::vector<double>& sorted)
 void ExpectSameInterfaces(
   const SimplexMesh<4>& before, const SimplexMesh<4>& after, const LabelImage<4>& image)
 {
-  ASSERT_EQ(before.Facets, after.Facets);
-  ASSERT_EQ(before.FacetLabels, after.FacetLabels);
+  ASSERT_EQ(InterfacesOf(before), InterfacesOf(after));
   ASSERT_LE(before.Points.size(), after.Points.size()); // new vertices are inside and come last
   const auto [first, last] = TimeSpan(before);
   std::size_t moved = 0;
@@ -194,7 +193,7 @@ TEST(PentatopeOptimiser, StarsMeasureMovedPentatopes)
   const LabelImage<4> image = ImageOf(PulsatingBalls(9, 2.0));
   const ImageDomain<4> domain(image, 1.0);
   const SimplexMesh<4> mesh = Mesh(image, UsualOptions(2.5), false).Mesh;
-  const PentatopeComplex complex(mesh, {}, 1, {});
+  const PentatopeComplex complex = checks::ScoredComplexOf(mesh);
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   PentatopeStar star;
@@ -271,7 +270,7 @@ TEST(PentatopeOptimiser, FlatPentatopesGrowToTheRightSide)
     }
     mesh.Labels = { 1 };
     mesh.Points[4] = { 0.25, 0.25, 0.25, 0.25 - 1e-9 }; // behind the facet of the others
-    const PentatopeComplex complex(mesh, {}, 1, {});
+    const PentatopeComplex complex = checks::ScoredComplexOf(mesh);
     PentatopeStar star;
     star.Gather(complex, 4);
     ASSERT_EQ(star.Inside().size(), 1u);
@@ -322,7 +321,6 @@ TEST(PentatopeOptimiser, LeavesWhatIsOutsidePositive)
   const Result before = Mesh(image, SpaceTimeOptions(2.0), false);
   // A pentatope outside, on a facet of the boundary. Its fifth point nearly lies in the facet.
   SimplexMesh<4> mesh = before.Mesh;
-  Surroundings<4> outside;
   for (std::size_t f = 0; f < mesh.Facets.size(); f += 3)
   {
     if (mesh.FacetLabels[f][1] != 0)
@@ -343,7 +341,7 @@ TEST(PentatopeOptimiser, LeavesWhatIsOutsidePositive)
       Cross(Subtract(*p[1], *p[0]), Subtract(*p[2], *p[0]), Subtract(*p[3], *p[0]));
     const double length = std::sqrt(Dot(normal, normal));
     std::array<std::uint32_t, 5> simplex{ mesh.Facets[f][0], mesh.Facets[f][1], mesh.Facets[f][2],
-      mesh.Facets[f][3], static_cast<std::uint32_t>(mesh.Points.size() + outside.Points.size()) };
+      mesh.Facets[f][3], static_cast<std::uint32_t>(mesh.Points.size()) };
     for (const double sign : { 1.0, -1.0 })
     {
       Point<4> apex = centre;
@@ -355,25 +353,25 @@ TEST(PentatopeOptimiser, LeavesWhatIsOutsidePositive)
       // Whichever side is positive will do: only its volume is looked at.
       if (SignedVolume<4>(corners.data()) > 0.0)
       {
-        outside.Points.push_back(apex);
-        outside.Simplices.push_back(simplex);
+        mesh.Points.push_back(apex);
+        mesh.Simplices.push_back(simplex);
+        mesh.Labels.push_back(0);
       }
     }
   }
-  ASSERT_GT(outside.Simplices.size(), 500u);
-  OptimisePentatopes(mesh, outside, domain, image, {});
-  EXPECT_NE(mesh.Points, before.Mesh.Points);
-  // Inserted vertices come after those of the mesh, and have no pentatope outside.
-  std::vector<Point<4>> points(mesh.Points.begin(),
-    mesh.Points.begin() + static_cast<std::ptrdiff_t>(before.Mesh.Points.size()));
-  points.insert(points.end(), outside.Points.begin(), outside.Points.end());
-  for (const auto& simplex : outside.Simplices)
+  PentatopeComplex complex = ComplexOf<4>(mesh, &domain);
+  voxplex::OptimisePentatopes(complex, domain, image, {});
+  std::size_t outside = 0;
+  for (std::uint32_t t = 0; t < complex.Cells.size(); ++t)
   {
-    std::array<const Point<4>*, 5> corners;
-    std::transform(
-      simplex.begin(), simplex.end(), corners.begin(), [&](std::uint32_t v) { return &points[v]; });
-    ASSERT_GT(SignedVolume<4>(corners.data()), 0.0);
+    if (complex.IsAlive(t) && complex.Labels[t] == 0)
+    {
+      ASSERT_GT(SignedVolume<4>(complex.PointsOf(complex.Cells[t].V).data()), 0.0);
+      ++outside;
+    }
   }
+  EXPECT_GT(outside, 500u);
+  EXPECT_NE(Written(complex).Points, before.Mesh.Points);
 }
 
 TEST(PentatopeOptimiser, Stops)
@@ -384,7 +382,8 @@ TEST(PentatopeOptimiser, Stops)
   const SimplexMesh<4> before = mesh;
   std::stop_source source;
   source.request_stop();
-  EXPECT_THROW(OptimisePentatopes(mesh, {}, domain, image, {}, 1, source.get_token()), Cancelled);
+  EXPECT_THROW(
+    checks::OptimisePentatopes(mesh, domain, image, {}, 1, source.get_token()), Cancelled);
   ExpectSame(mesh, before);
 }
 
@@ -420,7 +419,7 @@ TEST(PentatopeFlips, ExchangeTheFillingsOfSixPoints)
     }
     SimplexMesh<4>& mesh = fillings[0];
     ASSERT_NEAR(WholeVolume(mesh), WholeVolume(fillings[1]), 1e-9 * WholeVolume(mesh));
-    PentatopeComplex complex(mesh, {}, 1, {});
+    PentatopeComplex complex = checks::ScoredComplexOf(mesh);
     const PentatopeRules rules(domain, bounds);
     for (std::uint32_t s = 0; s < mesh.Simplices.size(); ++s)
     {
@@ -430,7 +429,7 @@ TEST(PentatopeFlips, ExchangeTheFillingsOfSixPoints)
       EXPECT_NEAR(flip.Before, Qualities(mesh).front(), 1e-9);
       EXPECT_NEAR(flip.After, Qualities(fillings[1]).front(), 1e-9);
     }
-    const PentatopeComplex good(fillings[1], {}, 1, {});
+    const PentatopeComplex good = checks::ScoredComplexOf(fillings[1]);
     EXPECT_EQ(FindFlip(good, rules, 0).NumberOfOld, 0u) << "it would lower the worst";
     PentatopeBounds strict;
     strict.RadiusEdgeRatio = 0.1;
@@ -446,7 +445,7 @@ TEST(PentatopeFlips, ExchangeTheFillingsOfSixPoints)
     {
       largestBefore = std::max(largestBefore, RadiusEdge(mesh, s));
     }
-    complex.Write(mesh);
+    mesh = Written(complex);
     double largestAfter = 0.0;
     for (std::size_t s = 0; s < mesh.Simplices.size(); ++s)
     {
@@ -469,7 +468,7 @@ TEST(PentatopeFlips, LeaveInterfacesAlone)
   const LabelImage<4> image = ImageOf(PulsatingBalls(9, 2.0));
   const ImageDomain<4> domain(image, 1.0);
   const SimplexMesh<4> mesh = Mesh(image, SpaceTimeOptions(2.5), false).Mesh;
-  const PentatopeComplex complex(mesh, {}, 1, {});
+  const PentatopeComplex complex = checks::ScoredComplexOf(mesh);
   const PentatopeBounds bounds;
   const PentatopeRules rules(domain, bounds);
   std::size_t found = 0;
@@ -520,7 +519,7 @@ TEST(PentatopeFlips, LeaveFacetsOnTimePlanesAlone)
       mesh.Simplices.push_back(Without(points, left));
       mesh.Labels.push_back(1);
     }
-    const PentatopeComplex complex(mesh, {}, 1, {});
+    const PentatopeComplex complex = checks::ScoredComplexOf(mesh);
     found += FindFlip(complex, PentatopeRules(domain, bounds), 0).NumberOfOld == 2 ? 1 : 0;
     ASSERT_EQ(FindFlip(complex, PentatopeRules(domain, withPlane), 0).NumberOfOld, 0u);
   }

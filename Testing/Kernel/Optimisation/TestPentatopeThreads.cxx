@@ -33,9 +33,10 @@ TEST(PentatopeInsertion, DoesNotDependOnThreads)
   PentatopeBounds bounds;
   bounds.Target = 0.14; // so that there are many
   SimplexMesh<4> first = before;
-  const PentatopeStatistics done = OptimisePentatopes(first, {}, domain, image, bounds, 1, {});
+  const PentatopeStatistics done = checks::OptimisePentatopes(first, domain, image, bounds, 1, {});
   EXPECT_GT(done.Insertions, 20u);
   SimplexMesh<4> mesh = before;
-  EXPECT_EQ(OptimisePentatopes(mesh, {}, domain, image, bounds, 3, {}).Insertions, done.Insertions);
+  EXPECT_EQ(
+    checks::OptimisePentatopes(mesh, domain, image, bounds, 3, {}).Insertions, done.Insertions);
   ExpectSame(mesh, first);
 }

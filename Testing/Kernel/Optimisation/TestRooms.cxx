@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ComplexOf.h"
 #include "Optimisation/Rooms.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ TetrahedralComplex Strip()
     mesh.Simplices.push_back({ t, t + 1, t + 2, t + 3 });
     mesh.Labels.push_back(1);
   }
-  return { mesh, ShapeScore(18.0, 150.0, 2.5), 1, {} };
+  return checks::ComplexOf<3>(mesh);
 }
 
 /** The room of each vertex; the rooms' number stands for none. */

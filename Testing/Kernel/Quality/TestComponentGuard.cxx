@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Changes of a mesh lose no component that is guarded.
+#include "ComplexOf.h"
 #include "Domain/ImageDomain.h"
 #include "MeshChecks.h"
 #include "MeshRuns.h"
@@ -23,6 +24,15 @@ using namespace voxplex;
 
 namespace
 {
+
+template <int D>
+std::vector<std::uint8_t> HoldersIn(
+  ComponentGuard<D>& guard, const SimplexMesh<D>& mesh, unsigned threads)
+{
+  const Complex<D> complex = checks::ComplexOf<D>(mesh);
+  return guard.FindHolders(
+    LabelledCells<D>(complex.Points, complex.Cells, complex.Labels), threads);
+}
 
 /** Noise, smoothed a little, in classes: many small components of each. */
 LabelImage<3> Noise(unsigned seed)
@@ -104,21 +114,21 @@ TEST(ComponentGuard, OptimisationLosesNothing)
       options.LargestDihedralAngle = 135.0;
       options.InterfaceTolerance = 0.5;
       SimplexMesh<3> mesh = before;
-      const OptimisationStatistics without = OptimiseMesh(mesh, domain, options, 2);
+      const OptimisationStatistics without = checks::OptimiseMesh(mesh, domain, options, 2);
       lostWithout += lostIn(mesh).size() - lostIn(before).size();
 
       ComponentGuard<3> guard(image);
       guard.Add(components, wanted);
       options.Guard = &guard;
       mesh = before;
-      const OptimisationStatistics with = OptimiseMesh(mesh, domain, options, 2);
+      const OptimisationStatistics with = checks::OptimiseMesh(mesh, domain, options, 2);
       EXPECT_EQ(lostIn(mesh), lostIn(before));
       EXPECT_LE(with.After.Poor, without.After.Poor + without.Before.Poor / 50);
       checks::ExpectSound(mesh);
 
       // Whatever the number of threads.
       SimplexMesh<3> again = before;
-      OptimiseMesh(again, domain, options, 5);
+      checks::OptimiseMesh(again, domain, options, 5);
       checks::ExpectSame(again, mesh);
     }
   }
@@ -149,14 +159,12 @@ TEST(ComponentGuard, NextHoldersAreNamed)
     }
     const auto first = static_cast<std::uint32_t>(mesh.Points.size() - 4);
     mesh.Simplices.push_back({ first, first + 1, first + 2, first + 3 });
-    mesh.Labels.push_back(3);
+    mesh.Labels.push_back(label);
   }
   ComponentGuard<3> guard(image);
-  EXPECT_TRUE(guard.FindHolders(mesh, 1).empty()) << "nothing is guarded";
+  EXPECT_TRUE(HoldersIn(guard, mesh, 1).empty()) << "nothing is guarded";
   guard.Add(components, { true, false });
-  EXPECT_EQ(guard.FindHolders(mesh, 1), (std::vector<std::uint8_t>{ 1, 0 }));
-  EXPECT_EQ(guard.LabelOf(3), label);
-  EXPECT_EQ(guard.LabelOf(4), 0);
+  EXPECT_EQ(HoldersIn(guard, mesh, 1), (std::vector<std::uint8_t>{ 1, 0 }));
 
   const auto before = shifted(0.0);
   const auto near = shifted(1.3); // within a voxel of it
@@ -203,7 +211,7 @@ TEST(ComponentGuard, FramesHaveTheirOwn)
   }
   ComponentGuard<4> guard(image);
   guard.Add(ofFrames, { true, true, true });
-  EXPECT_EQ(guard.FindHolders(mesh, 2), (std::vector<std::uint8_t>{ 1, 1, 1 }));
+  EXPECT_EQ(HoldersIn(guard, mesh, 2), (std::vector<std::uint8_t>{ 1, 1, 1 }));
   const auto before = at(1.1, 0.4);
   const auto reaches = at(1.3, 0.4); // still cut at frame 1
   const auto between = at(1.5, 0.2);
@@ -238,8 +246,8 @@ TEST(ComponentGuard, PentatopesAreHandedOver)
 
   ComponentGuard<4> guard(image);
   guard.Add(components, { true });
-  PentatopeComplex complex(mesh, {}, 1, {});
-  complex.Protect(guard, mesh, 1, {});
+  PentatopeComplex complex = checks::ScoredComplexOf(mesh);
+  complex.Protect(&guard);
   Patch patch(complex, {}, 0);
   patch.NeedSlots(2);
   EXPECT_TRUE(complex.IsHolder(0));

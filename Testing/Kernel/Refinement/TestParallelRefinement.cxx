@@ -3,7 +3,7 @@
 // Refinement by several threads on an analytic domain: the rules hold as they do after one thread, the
 // counts add up, and what goes wrong in a thread comes out of Run().
 #include "BallDomain.h"
-#include "Mesh/MeshExtraction.h"
+#include "ComplexOf.h"
 #include "MeshChecks.h"
 #include "Parallel/CycleClock.h"
 #include "Refinement/Refiner.h"

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rules on an analytic domain, where every answer is known: after refinement none is violated.
 #include "BallDomain.h"
+#include "ComplexOf.h"
 #include "Domain/ImageDomain.h"
 #include "Geometry/HilbertOrder.h"
-#include "Mesh/MeshExtraction.h"
 #include "MeshChecks.h"
 #include "Phantoms.h"
 #include "Refinement/Refiner.h"

@@ -4,7 +4,7 @@
 // refinement; picking regions leave no slivers.
 #include "BallDomain.h"
 #include "CallableSize.h"
-#include "Mesh/MeshExtraction.h"
+#include "ComplexOf.h"
 #include "Refinement/Refiner.h"
 #include "Refinement/Rules/Rules4D.h"
 #include "RefinementChecks.h"

@@ -5,7 +5,7 @@
 #define voxplex_InterfaceChecks_h
 
 #include "BallDomain.h"
-#include "Mesh/MeshExtraction.h"
+#include "ComplexOf.h"
 #include "MeshChecks.h"
 #include "MeshRuns.h"
 #include "Phantoms.h"

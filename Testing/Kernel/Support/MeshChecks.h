@@ -36,6 +36,18 @@ void ExpectSame(const SimplexMesh<D>& a, const SimplexMesh<D>& b)
   EXPECT_TRUE(a.Twins == b.Twins);
 }
 
+/** The facets between labels with their labels, whatever their order and that of their vertices. */
+template <int D>
+auto InterfacesOf(const SimplexMesh<D>& mesh)
+{
+  std::set<std::pair<std::set<std::uint32_t>, std::array<std::int64_t, 2>>> interfaces;
+  for (std::size_t f = 0; f < mesh.Facets.size(); ++f)
+  {
+    interfaces.insert({ { mesh.Facets[f].begin(), mesh.Facets[f].end() }, mesh.FacetLabels[f] });
+  }
+  return interfaces;
+}
+
 inline Point<3> Cross(const Point<3>& a, const Point<3>& b)
 {
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };

@@ -4,6 +4,7 @@
 #ifndef voxplex_PentatopeCases_h
 #define voxplex_PentatopeCases_h
 
+#include "ComplexOf.h"
 #include "Geometry/SimplexQuality.h"
 #include "Optimisation/Patch.h"
 #include "Optimisation/PentatopeRules.h"

@@ -5,7 +5,7 @@
 #define voxplex_RefinementChecks_h
 
 #include "BallDomain.h"
-#include "Mesh/MeshExtraction.h"
+#include "ComplexOf.h"
 #include "MeshChecks.h"
 #include "Refinement/RefinementContext.h"
 #include "Refinement/Refiner.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The extracted mesh against its definition, written down without threads.
+// The mesh of a labelled triangulation against its definition, written down without threads.
 #include "Base/Error.h"
-#include "Mesh/MeshExtraction.h"
+#include "ComplexOf.h"
 #include "MeshChecks.h"
 
 #include <gtest/gtest.h>
@@ -19,6 +19,7 @@
 #include <thread>
 
 using namespace voxplex;
+using namespace voxplex::checks;
 using voxplex::checks::ExpectSame;
 
 namespace
@@ -77,15 +78,7 @@ public:
     }
     return p[0] + 0.3 * p[1] < 0.6 ? 1 : 2;
   }
-  std::int64_t LabelValue(LabelId id) const override
-  {
-    this->Count(this->ValueCalls, this->StopAtValue);
-    if (this->ValueMeeting)
-    {
-      this->ValueMeeting->Arrive();
-    }
-    return 10 * id;
-  }
+  std::int64_t LabelValue(LabelId id) const override { return 10 * id; }
   double DistanceBound(const Point<D>&) const override { return 0.0; }
   bool NearSurfacePoint(const Point<D>&, LabelId, Point<D>&, double&) const override
   {
@@ -98,12 +91,9 @@ public:
   }
 
   Meeting* LabelMeeting = nullptr;
-  Meeting* ValueMeeting = nullptr;
   /** Requests a stop in the n-th call. */
   std::size_t StopAtLabel = ~std::size_t{ 0 };
-  std::size_t StopAtValue = ~std::size_t{ 0 };
   mutable std::atomic<std::size_t> LabelCalls = 0;
-  mutable std::atomic<std::size_t> ValueCalls = 0;
   mutable std::stop_source Stop;
 
 private:
@@ -153,7 +143,7 @@ std::unique_ptr<Triangulation<D>> RandomTriangulation(std::size_t points)
   return triangulation;
 }
 
-/** What ExtractMesh() promises, step by step. */
+/** The mesh that a complex writes, step by step. */
 template <int D>
 SimplexMesh<D> Expected(const Triangulation<D>& triangulation, const Domain<D>& image)
 {
@@ -236,14 +226,14 @@ void ExpectTheDefinition(std::size_t points, double margin)
 } // namespace
 
 // Enough for several chunks of every loop.
-TEST(MeshExtraction, IsTheDefinitionForAnyNumberOfThreads)
+TEST(Complex, IsTheDefinitionForAnyNumberOfThreads)
 {
   ExpectTheDefinition<3>(20000, 0.1);
   ExpectTheDefinition<4>(1500, 0.05);
 }
 
 // Fewer elements than threads.
-TEST(MeshExtraction, TinyMeshes)
+TEST(Complex, TinyMeshes)
 {
   for (const std::size_t points : { 0u, 1u, 5u, 30u })
   {
@@ -253,7 +243,7 @@ TEST(MeshExtraction, TinyMeshes)
   }
 }
 
-TEST(MeshExtraction, IsConforming)
+TEST(Complex, IsConforming)
 {
   const auto triangulation = RandomTriangulation<3>(3000);
   SimplexMesh<3> mesh;
@@ -262,21 +252,17 @@ TEST(MeshExtraction, IsConforming)
   checks::ExpectSound(mesh);
 }
 
-TEST(MeshExtraction, ThreadsWorkAtOnce)
+TEST(SimplexLabels, AreFoundByThreadsAtOnce)
 {
   const auto triangulation = RandomTriangulation<3>(5000);
   Meeting labelling;
-  Meeting writing;
   TwoLabels<3> image(0.0);
   image.LabelMeeting = &labelling;
-  image.ValueMeeting = &writing;
-  SimplexMesh<3> mesh;
-  ExtractMesh<3>(*triangulation, image, mesh, 2);
+  LabelSimplices<3>(*triangulation, image, 2);
   EXPECT_TRUE(labelling.TookPlace());
-  EXPECT_TRUE(writing.TookPlace());
 }
 
-TEST(MeshExtraction, WithoutObjectTheMeshIsEmpty)
+TEST(Complex, WithoutObjectTheMeshIsEmpty)
 {
   const auto triangulation = RandomTriangulation<3>(20);
   for (const unsigned threads : { 1u, 2u, 3u, 8u })
@@ -289,7 +275,7 @@ TEST(MeshExtraction, WithoutObjectTheMeshIsEmpty)
   }
 }
 
-TEST(MeshExtraction, LabelsThatAreKnownAreNotAskedFor)
+TEST(Complex, LabelsThatAreKnownAreNotAskedFor)
 {
   const auto triangulation = RandomTriangulation<3>(500);
   const TwoLabels<3> image(0.1);
@@ -320,16 +306,14 @@ TEST(MeshExtraction, LabelsThatAreKnownAreNotAskedFor)
   }
 }
 
-// Half-way in the first loop, in the loop that writes the simplices, and when it is too late for all
-// but the last one.
-TEST(MeshExtraction, StopsInTheMiddle)
+// While labels are found, when all are found, and when the complex is made.
+TEST(Complex, StopsInTheMiddle)
 {
   const auto triangulation = RandomTriangulation<3>(20000);
   const TwoLabels<3> counted(0.0);
   SimplexMesh<3> mesh;
   ExtractMesh<3>(*triangulation, counted, mesh);
   const std::size_t labels = counted.LabelCalls;
-  const std::size_t simplices = mesh.Simplices.size();
   ASSERT_GT(labels, 80000u);
   constexpr std::size_t Chunk = 8192;
   for (const unsigned threads : { 1u, 2u, 3u, 8u })
@@ -345,17 +329,17 @@ TEST(MeshExtraction, StopsInTheMiddle)
     first.StopAtLabel = 20;
     expectStop(first);
     EXPECT_LT(first.LabelCalls, threads * Chunk + 1) << "chunks that ran, but no others";
-    EXPECT_EQ(first.ValueCalls, 0u);
-
-    TwoLabels<3> writing(0.0);
-    writing.StopAtValue = 20;
-    expectStop(writing);
-    EXPECT_EQ(writing.LabelCalls, labels);
-    EXPECT_LT(writing.ValueCalls, threads * Chunk + 1);
 
     TwoLabels<3> last(0.0);
-    last.StopAtValue = simplices;
+    last.StopAtLabel = labels;
     expectStop(last);
-    EXPECT_EQ(last.ValueCalls, simplices) << "no facets";
+    EXPECT_EQ(last.LabelCalls, labels);
+
+    UninitialisedVector<std::uint32_t> numbers;
+    Complex<3> complex(*triangulation, LabelSimplices<3>(*triangulation, counted), {}, numbers);
+    EXPECT_THROW(
+      complex.Write(ValuesOf<3>(counted, { 1, 2 }), mesh, threads, last.Stop.get_token()),
+      Cancelled);
+    EXPECT_TRUE(IsEmpty(mesh));
   }
 }

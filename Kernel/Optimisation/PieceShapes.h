@@ -9,7 +9,7 @@
 
 #include "Geometry/ExactPredicates.h"
 #include "Geometry/SimplexQuality.h"
-#include "Mesh/Subdivision.h"
+#include "Optimisation/Patch.h"
 #include "Sizing/SizingField.h"
 
 #include <algorithm>
@@ -66,7 +66,7 @@ inline bool IsPositive(const std::array<const Point<4>*, 5>& points)
 //------------------------------------------------------------------------------------------------
 /**
  * @brief Scores of pieces.
- * @tparam PositionOf gives the position of a vertex id
+ * @tparam PositionOf gives the position of a vertex
  */
 template <int D, typename PositionOf>
 class PieceShapes
@@ -80,10 +80,10 @@ public:
   }
 
   /** The score of the pieces in the mesh; 0 if a piece is flat or inverted. */
-  double ShapesOf(std::span<const Piece<D>> pieces) const
+  double ShapesOf(std::span<const NewCell<D>> pieces) const
   {
     double smallest = std::numeric_limits<double>::infinity();
-    for (const Piece<D>& piece : pieces)
+    for (const NewCell<D>& piece : pieces)
     {
       const std::array<const Point<D>*, N> points = this->PointsOf(piece);
       if ((D == 4 || piece.Label != 0) && !IsPositive(points))
@@ -97,14 +97,14 @@ public:
   }
 
   /** The score of the angles of interfaces between pieces. */
-  double FacetsOf(std::span<const Piece<3>> pieces) const
+  double FacetsOf(std::span<const NewCell<3>> pieces) const
   {
-    std::vector<std::pair<std::array<VertexId, 3>, LabelId>> facets;
-    for (const Piece<3>& piece : pieces)
+    std::vector<std::pair<std::array<std::uint32_t, 3>, LabelId>> facets;
+    for (const NewCell<3>& piece : pieces)
     {
       for (unsigned i = 0; i < 4; ++i)
       {
-        std::array<VertexId, 3> facet{ piece.V[(i + 1) % 4], piece.V[(i + 2) % 4],
+        std::array<std::uint32_t, 3> facet{ piece.V[(i + 1) % 4], piece.V[(i + 2) % 4],
           piece.V[(i + 3) % 4] };
         std::sort(facet.begin(), facet.end());
         facets.emplace_back(facet, piece.Label);
@@ -128,7 +128,7 @@ public:
 private:
   static constexpr unsigned N = D + 1;
 
-  std::array<const Point<D>*, N> PointsOf(const Piece<D>& piece) const
+  std::array<const Point<D>*, N> PointsOf(const NewCell<D>& piece) const
   {
     std::array<const Point<D>*, N> points;
     for (unsigned i = 0; i < N; ++i)

@@ -8,40 +8,29 @@
 #ifndef voxplex_OpenRidges_h
 #define voxplex_OpenRidges_h
 
-#include "Delaunay/Triangulation.h"
 #include "Domain/Domain.h"
+#include "Domain/TimePlanes.h"
 #include "Image/LabelContacts.h"
-#include "Mesh/Subdivision.h"
+#include "Optimisation/Complex.h"
 #include "Quality/InterfaceEdges.h"
 #include "Sizing/SizingField.h"
 
-#include <functional>
-#include <span>
 #include <stop_token>
 #include <vector>
 
 namespace voxplex
 {
 
-/** The result of OpenRidges(). */
-template <int D>
-struct OpenedRidges
-{
-  Subdivision<D> Parts;
-  std::vector<InterfaceRidge<D>> Left; ///< only where simplices are flat within rounding
-};
-
 /** What OpenRidges() looks at in addition. All is optional. */
 template <int D>
 struct OpeningContext
 {
-  std::span<const Point<D>> Positions; ///< of each vertex id; empty: those of the triangulation
   /** 4D: pieces with a circumradius above its element sizes count as bad shapes. Null: no bound. */
   const SizingField<D>* Sizing = nullptr;
   /** Fillings that make contacts or connections which the image does not have are the last choice. Null: they are not. */
   const LabelContacts<D>* Contacts = nullptr;
-  /** Whether a simplex must keep its label at each ridge. Empty: none must. */
-  std::function<bool(SimplexId)> Keeps = {};
+  /** 4D: cells with a facet on them, or on an end of a periodic mesh, keep their labels. */
+  TimePlanes Planes = {};
 };
 
 /**
@@ -83,25 +72,23 @@ struct OpeningContext
  * image cuts the object is taken only if there is no other; so is one that makes labels touch, or
  * connects parts of one, where the image does not (OpeningContext::Contacts).
  *
- * The triangulation is not changed, and no thread may change it during the call. Takes time linear
- * in the number of ridges, if few simplices share one. Ridges with many runs around them take
- * longer.
+ * Takes time linear in the number of ridges, if few simplices share one. Ridges with many runs around
+ * them take longer.
  *
- * @param labels by simplex id
- * @param ridges the non-manifold ridges, with vertex ids
+ * @param complex with the cells around the object
+ * @param ridges the non-manifold ridges
+ * @return those that are left: only where simplices are flat within rounding
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>
-OpenedRidges<D> OpenRidges(const Triangulation<D>& triangulation, const Domain<D>& domain,
-  std::span<const LabelId> labels, const std::vector<InterfaceRidge<D>>& ridges,
-  const std::stop_token& stop = {}, const OpeningContext<D>& context = {});
+std::vector<InterfaceRidge<D>> OpenRidges(Complex<D>& complex, const Domain<D>& domain,
+  const std::vector<InterfaceRidge<D>>& ridges, const OpeningContext<D>& context = {},
+  const std::stop_token& stop = {});
 
-extern template OpenedRidges<3> OpenRidges<3>(const Triangulation<3>&, const Domain<3>&,
-  std::span<const LabelId>, const std::vector<InterfaceRidge<3>>&, const std::stop_token&,
-  const OpeningContext<3>&);
-extern template OpenedRidges<4> OpenRidges<4>(const Triangulation<4>&, const Domain<4>&,
-  std::span<const LabelId>, const std::vector<InterfaceRidge<4>>&, const std::stop_token&,
-  const OpeningContext<4>&);
+extern template std::vector<InterfaceRidge<3>> OpenRidges<3>(Complex<3>&, const Domain<3>&,
+  const std::vector<InterfaceRidge<3>>&, const OpeningContext<3>&, const std::stop_token&);
+extern template std::vector<InterfaceRidge<4>> OpenRidges<4>(Complex<4>&, const Domain<4>&,
+  const std::vector<InterfaceRidge<4>>&, const OpeningContext<4>&, const std::stop_token&);
 
 } // namespace voxplex
 

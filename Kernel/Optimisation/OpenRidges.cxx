@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Conformity/OpenRidges.h"
+#include "Optimisation/OpenRidges.h"
 
-#include "Conformity/PieceShapes.h"
-#include "Delaunay/VertexStar.h"
+#include "Optimisation/Patch.h"
+#include "Optimisation/PieceShapes.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace voxplex
@@ -32,16 +32,16 @@ constexpr std::array<double, 5> Widths{ 0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 0.75 };
 
 /** The vertices of a ridge: an edge in 3D, a triangle in 4D. */
 template <int D>
-using RidgeVertices = std::array<VertexId, static_cast<std::size_t>(D - 1)>;
+using RidgeVertices = std::array<std::uint32_t, static_cast<std::size_t>(D - 1)>;
 
-/** A simplex around a ridge, or its piece at the ridge: the ridge, r and s, positively oriented. */
+/** A cell around a ridge: the ridge, r and s, positively oriented. */
 template <int D>
 struct Sector
 {
-  SimplexId Owner; ///< None: this sector stands for what lies beyond the box
-  std::array<VertexId, static_cast<std::size_t>(D + 1)> Whole; ///< its vertices as they are stored
-  VertexId R;
-  VertexId S; ///< R of the next sector
+  std::uint32_t Owner; ///< the cell; None: this sector stands for what lies beyond the box
+  typename Complex<D>::Vertices Whole; ///< its vertices as they are stored
+  std::uint32_t R;
+  std::uint32_t S; ///< R of the next sector
   LabelId Label;
 };
 
@@ -88,11 +88,10 @@ template <int D>
 class RidgeOpener
 {
 public:
-  RidgeOpener(const Triangulation<D>& triangulation, const Domain<D>& domain,
-    std::span<const LabelId> labels, const OpeningContext<D>& context)
-    : Source(triangulation)
+  RidgeOpener(Complex<D>& complex, const Domain<D>& domain, const OpeningContext<D>& context)
+    : Mesh(complex)
+    , Target(complex, {}, 0)
     , Image(domain)
-    , Labels(labels)
     , Context(context)
   {
   }
@@ -110,52 +109,47 @@ public:
     {
       return false;
     }
-    const std::vector<VertexId> onFacets = this->AddPointsOnFacets(*ring, *best);
+    const std::vector<std::uint32_t> onFacets = this->AddPointsOnFacets(*ring, *best);
+    std::vector<std::uint32_t> old;
+    std::vector<NewCell<D>> pieces;
     for (std::size_t k = 0; k < ring->Sectors.size(); ++k)
     {
-      const std::vector<Piece<D>> pieces = this->PiecesOf(*ring, *best, k, onFacets);
-      if (!pieces.empty())
+      const std::vector<NewCell<D>> some = this->PiecesOf(*ring, *best, k, onFacets);
+      if (!some.empty())
       {
-        this->Replace(ring->Sectors[k], pieces);
+        old.push_back(ring->Sectors[k].Owner);
+        pieces.insert(pieces.end(), some.begin(), some.end());
       }
     }
-    return true;
-  }
-
-  Subdivision<D> Result()
-  {
-    for (auto& [owner, pieces] : this->Pieces)
-    {
-      this->Parts.Replaced.push_back(owner);
-      this->Parts.Pieces.insert(this->Parts.Pieces.end(), pieces.begin(), pieces.end());
-    }
-    return std::move(this->Parts);
+    const std::size_t points = this->Mesh.Points.size();
+    this->Mesh.AddVertices(this->Points.size());
+    std::copy(this->Points.begin(), this->Points.end(),
+      this->Mesh.Points.begin() + static_cast<std::ptrdiff_t>(points));
+    this->Points.clear();
+    this->Target.NeedSlots(pieces.size());
+    return this->Target.Replace(old, pieces);
   }
 
 private:
   static constexpr unsigned InRidge = D - 1; ///< vertices; r and s follow them
   static constexpr unsigned N = D + 1;
-  using Corners = std::array<VertexId, N>;
+  using Corners = typename Complex<D>::Vertices;
 
-  const Point<D>& Position(VertexId v) const
+  const Point<D>& Position(std::uint32_t v) const
   {
-    const VertexId end = this->Source.VertexIdEnd();
-    if (v >= end)
-    {
-      return this->Parts.Points[v - end];
-    }
-    return this->Context.Positions.empty() ? this->Source.Position(v) : this->Context.Positions[v];
+    const std::size_t end = this->Mesh.Points.size();
+    return v < end ? this->Mesh.Points[v] : this->Points[v - end];
   }
 
-  VertexId AddPoint(const Point<D>& p)
+  std::uint32_t AddPoint(const Point<D>& p)
   {
-    this->Parts.Points.push_back(p);
-    return this->Source.VertexIdEnd() + static_cast<VertexId>(this->Parts.Points.size() - 1);
+    this->Points.push_back(p);
+    return static_cast<std::uint32_t>(this->Mesh.Points.size() + this->Points.size() - 1);
   }
 
-  /** The sector of a simplex or piece at a ridge; nothing if it does not have the ridge. */
+  /** The sector of a cell at a ridge; nothing if it does not have the ridge. */
   static std::optional<Sector<D>> SectorOf(
-    const RidgeVertices<D>& ridge, SimplexId owner, const Corners& v, LabelId label)
+    const RidgeVertices<D>& ridge, std::uint32_t owner, const Corners& v, LabelId label)
   {
     Sector<D> sector{ owner, v, None, None, label };
     std::array<unsigned, N> places{}; // in v: of the ridge's vertices, then of the others
@@ -199,28 +193,17 @@ private:
    */
   std::optional<Ring<D>> RingOf(const RidgeVertices<D>& ridge) const
   {
-    std::map<VertexId, Sector<D>> byFirst;
-    std::vector<VertexId> seconds;
-    const auto add = [&](SimplexId owner, const Corners& v, LabelId label)
+    std::map<std::uint32_t, Sector<D>> byFirst;
+    std::vector<std::uint32_t> seconds;
+    VertexStar<D> star;
+    this->Mesh.GatherStar(ridge[0], star, [](std::uint32_t) { return true; });
+    for (const std::uint32_t t : star.Cells)
     {
-      if (const std::optional<Sector<D>> sector = SectorOf(ridge, owner, v, label))
+      if (const std::optional<Sector<D>> sector =
+            SectorOf(ridge, t, this->Mesh.Cells[t].V, this->Mesh.Labels[t]))
       {
         byFirst[sector->R] = *sector;
         seconds.push_back(sector->S);
-      }
-    };
-    for (const SimplexId t :
-      StarOf(this->Source, ridge[0], this->Source.GetVertex(ridge[0]).Incident))
-    {
-      const auto pieces = this->Pieces.find(t);
-      if (pieces == this->Pieces.end())
-      {
-        add(t, this->Source.GetSimplex(t).V, this->Labels[t]);
-        continue;
-      }
-      for (const Piece<D>& piece : pieces->second)
-      {
-        add(t, piece.V, piece.Label);
       }
     }
     Ring<D> ring{ ridge, {} };
@@ -344,12 +327,37 @@ private:
     do
     {
       const Sector<D>& sector = ring.Sectors[k];
-      const bool isCut = sector.Owner != None && sector.Label != label &&
-        !(this->Context.Keeps && this->Context.Keeps(sector.Owner));
+      const bool isCut =
+        sector.Owner != None && sector.Label != label && !this->KeepsItsLabel(sector);
       filling.Gives[k] = isCut ? 1 : 0;
       k = ring.Next(k);
     } while (k != end);
     return filling;
+  }
+
+  /** Whether a sector has a facet on a time plane, or on an end of a periodic mesh. */
+  bool KeepsItsLabel(const Sector<D>& sector) const
+  {
+    const TimePlanes& planes = this->Context.Planes;
+    if (D == 3 || !planes.Exist())
+    {
+      return false;
+    }
+    const auto timeOf = [&](std::size_t i) { return this->Position(sector.Whole[i])[D - 1]; };
+    for (std::size_t i = 0; i < N; ++i)
+    {
+      const double time = timeOf(i == 0 ? 1 : 0);
+      bool isFlat = planes.AreAt(time) || planes.IsPeriodicEnd(time);
+      for (std::size_t k = 0; k < N && isFlat; ++k)
+      {
+        isFlat = k == i || timeOf(k) == time;
+      }
+      if (isFlat)
+      {
+        return true;
+      }
+    }
+    return false;
   }
 
   static bool IsManifold(const Ring<D>& ring, const Filling& filling)
@@ -377,7 +385,7 @@ private:
       {
         corners[i] = &this->Position(ring.Ridge[i]);
       }
-      const auto touches = [&](VertexId beside, LabelId label)
+      const auto touches = [&](std::uint32_t beside, LabelId label)
       {
         corners[InRidge] = &this->Position(beside);
         return label == filling.Label ||
@@ -436,9 +444,9 @@ private:
   }
 
   /** The new vertex on the facet before each sector; None if there is none. */
-  std::vector<VertexId> AddPointsOnFacets(const Ring<D>& ring, const Filling& filling)
+  std::vector<std::uint32_t> AddPointsOnFacets(const Ring<D>& ring, const Filling& filling)
   {
-    std::vector<VertexId> points(ring.Sectors.size(), None);
+    std::vector<std::uint32_t> points(ring.Sectors.size(), None);
     for (std::size_t k = 0; k < points.size(); ++k)
     {
       if (HasPointBefore(ring, filling, k))
@@ -450,7 +458,7 @@ private:
     return points;
   }
 
-  VertexId AddPointBeside(const RidgeVertices<D>& ridge, const Point<D>& to, double width)
+  std::uint32_t AddPointBeside(const RidgeVertices<D>& ridge, const Point<D>& to, double width)
   {
     const Point<D> middle = this->MiddleOf(ridge);
     double length = 0.0; // of the longest edge
@@ -466,11 +474,11 @@ private:
   }
 
   /** The centroid. If all vertices have the same coordinate, it has this coordinate exactly. */
-  Point<D> MiddleOf(std::span<const VertexId> face) const
+  Point<D> MiddleOf(std::span<const std::uint32_t> face) const
   {
     Point<D> middle = this->Position(face[0]);
     Point<D> sum{};
-    for (const VertexId v : face)
+    for (const std::uint32_t v : face)
     {
       for (std::size_t a = 0; a < middle.size(); ++a)
       {
@@ -490,7 +498,7 @@ private:
   }
 
   /** The ridge, then others. */
-  static Corners CornersOf(const RidgeVertices<D>& ridge, VertexId r, VertexId s)
+  static Corners CornersOf(const RidgeVertices<D>& ridge, std::uint32_t r, std::uint32_t s)
   {
     Corners corners{};
     std::copy(ridge.begin(), ridge.end(), corners.begin());
@@ -500,8 +508,8 @@ private:
   }
 
   /** The pieces of a sector; empty if it stays whole. May add a point. */
-  std::vector<Piece<D>> PiecesOf(
-    const Ring<D>& ring, const Filling& filling, std::size_t k, std::span<const VertexId> onFacets)
+  std::vector<NewCell<D>> PiecesOf(const Ring<D>& ring, const Filling& filling, std::size_t k,
+    std::span<const std::uint32_t> onFacets)
   {
     const Sector<D>& sector = ring.Sectors[k];
     if (sector.Owner == None)
@@ -509,19 +517,19 @@ private:
       return {};
     }
     const Corners whole = CornersOf(ring.Ridge, sector.R, sector.S);
-    const VertexId p = onFacets[k];
-    const VertexId q = onFacets[ring.Next(k)];
+    const std::uint32_t p = onFacets[k];
+    const std::uint32_t q = onFacets[ring.Next(k)];
     const LabelId own = sector.Label;
     const LabelId atRidge = filling.Gives[k] != 0 ? filling.Label : own;
     if (p == None && q == None)
     {
       return filling.Gives[k] != 0 ? this->SplitWithin(ring.Ridge, sector, atRidge, filling.Width)
-                                   : std::vector<Piece<D>>();
+                                   : std::vector<NewCell<D>>();
     }
-    std::vector<Piece<D>> pieces;
+    std::vector<NewCell<D>> pieces;
     if (p != None && q != None)
     {
-      std::vector<Piece<D>> other;
+      std::vector<NewCell<D>> other;
       CutOff(CutOff(whole, InRidge, p, own, pieces), InRidge + 1, q, own, pieces);
       CutOff(CutOff(whole, InRidge + 1, q, own, other), InRidge, p, own, other);
       if (this->Shapes().ShapesOf(other) > this->Shapes().ShapesOf(pieces))
@@ -545,8 +553,8 @@ private:
    * @param point on the facet of the ridge and this vertex
    * @return the rest, which has the whole ridge
    */
-  static Corners CutOff(
-    const Corners& v, unsigned i, VertexId point, LabelId label, std::vector<Piece<D>>& pieces)
+  static Corners CutOff(const Corners& v, unsigned i, std::uint32_t point, LabelId label,
+    std::vector<NewCell<D>>& pieces)
   {
     for (unsigned k = 0; k < InRidge; ++k)
     {
@@ -562,11 +570,11 @@ private:
    * Splits a sector by a point inside it. Used if the label at the ridge continues beyond both
    * facets.
    */
-  std::vector<Piece<D>> SplitWithin(
+  std::vector<NewCell<D>> SplitWithin(
     const RidgeVertices<D>& ridge, const Sector<D>& sector, LabelId atRidge, double width)
   {
-    const VertexId point = this->AddPointBeside(ridge, this->MiddleOfOthers(sector), width);
-    std::vector<Piece<D>> pieces;
+    const std::uint32_t point = this->AddPointBeside(ridge, this->MiddleOfOthers(sector), width);
+    std::vector<NewCell<D>> pieces;
     for (unsigned i = 0; i < N; ++i)
     {
       pieces.push_back(
@@ -578,19 +586,20 @@ private:
 
   auto Shapes() const
   {
-    const auto positionOf = [this](VertexId v) -> const Point<D>& { return this->Position(v); };
+    const auto positionOf = [this](std::uint32_t v) -> const Point<D>&
+    { return this->Position(v); };
     return PieceShapes<D, decltype(positionOf)>(positionOf, this->Context.Sizing);
   }
 
   /** The score of all pieces of a ring. Removes the points it adds. */
   double ScoreOf(const Ring<D>& ring, const Filling& filling)
   {
-    const std::size_t points = this->Parts.Points.size();
-    const std::vector<VertexId> onFacets = this->AddPointsOnFacets(ring, filling);
-    std::vector<Piece<D>> all;
+    const std::size_t points = this->Points.size();
+    const std::vector<std::uint32_t> onFacets = this->AddPointsOnFacets(ring, filling);
+    std::vector<NewCell<D>> all;
     for (std::size_t k = 0; k < ring.Sectors.size(); ++k)
     {
-      const std::vector<Piece<D>> pieces = this->PiecesOf(ring, filling, k, onFacets);
+      const std::vector<NewCell<D>> pieces = this->PiecesOf(ring, filling, k, onFacets);
       all.insert(all.end(), pieces.begin(), pieces.end());
     }
     double score = this->Shapes().ShapesOf(all);
@@ -598,7 +607,7 @@ private:
     {
       score = std::min(score, this->Shapes().FacetsOf(all));
     }
-    this->Parts.Points.resize(points);
+    this->Points.resize(points);
     return score;
   }
 
@@ -637,57 +646,46 @@ private:
   bool HasFacetOnBorder(
     const ImageBorder<D>& border, const Ring<D>& ring, const Sector<D>& sector) const
   {
-    const auto faces = [&](VertexId v) { return border.FacesAt(this->Position(v)); };
+    const auto faces = [&](std::uint32_t v) { return border.FacesAt(this->Position(v)); };
     unsigned common = faces(sector.R) | faces(sector.S);
-    for (const VertexId v : ring.Ridge)
+    for (const std::uint32_t v : ring.Ridge)
     {
       common &= faces(v);
     }
     return common != 0;
   }
 
-  void Replace(const Sector<D>& sector, const std::vector<Piece<D>>& pieces)
-  {
-    std::vector<Piece<D>>& all = this->Pieces[sector.Owner];
-    std::erase_if(all, [&](const Piece<D>& piece) { return piece.V == sector.Whole; });
-    all.insert(all.end(), pieces.begin(), pieces.end());
-  }
-
-  const Triangulation<D>& Source;
+  Complex<D>& Mesh;
+  Patch<D> Target; ///< all of the mesh
   const Domain<D>& Image;
-  const std::span<const LabelId> Labels;
   const OpeningContext<D> Context;
-  Subdivision<D> Parts; ///< has its points now; the rest is set at the end
-  std::map<SimplexId, std::vector<Piece<D>>> Pieces; ///< of simplices that were cut
+  std::vector<Point<D>> Points; ///< new ones, which the mesh does not have yet
 };
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-OpenedRidges<D> OpenRidges(const Triangulation<D>& triangulation, const Domain<D>& domain,
-  std::span<const LabelId> labels, const std::vector<InterfaceRidge<D>>& ridges,
-  const std::stop_token& stop, const OpeningContext<D>& context)
+std::vector<InterfaceRidge<D>> OpenRidges(Complex<D>& complex, const Domain<D>& domain,
+  const std::vector<InterfaceRidge<D>>& ridges, const OpeningContext<D>& context,
+  const std::stop_token& stop)
 {
-  OpenedRidges<D> result;
-  RidgeOpener<D> maker(triangulation, domain, labels, context);
+  std::vector<InterfaceRidge<D>> left;
+  RidgeOpener<D> opener(complex, domain, context);
   for (const InterfaceRidge<D>& ridge : ridges)
   {
     ThrowIfStopped(stop);
-    if (!maker.Open(ridge))
+    if (!opener.Open(ridge))
     {
-      result.Left.push_back(ridge);
+      left.push_back(ridge);
     }
   }
-  result.Parts = maker.Result();
-  return result;
+  return left;
 }
 
-template OpenedRidges<3> OpenRidges<3>(const Triangulation<3>&, const Domain<3>&,
-  std::span<const LabelId>, const std::vector<InterfaceRidge<3>>&, const std::stop_token&,
-  const OpeningContext<3>&);
-template OpenedRidges<4> OpenRidges<4>(const Triangulation<4>&, const Domain<4>&,
-  std::span<const LabelId>, const std::vector<InterfaceRidge<4>>&, const std::stop_token&,
-  const OpeningContext<4>&);
+template std::vector<InterfaceRidge<3>> OpenRidges<3>(Complex<3>&, const Domain<3>&,
+  const std::vector<InterfaceRidge<3>>&, const OpeningContext<3>&, const std::stop_token&);
+template std::vector<InterfaceRidge<4>> OpenRidges<4>(Complex<4>&, const Domain<4>&,
+  const std::vector<InterfaceRidge<4>>&, const OpeningContext<4>&, const std::stop_token&);
 
 } // namespace voxplex

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Edges that are not manifold are opened by cutting tetrahedra around them in pieces; none is left, on any labels.
 #include "Base/Error.h"
-#include "Conformity/OpenRidges.h"
+#include "ComplexOf.h"
 #include "Domain/ImageDomain.h"
 #include "Geometry/SimplexQuality.h"
 #include "InterfaceChecks.h"
 #include "Mesh/LabelledTriangulation.h"
+#include "Optimisation/OpenRidges.h"
 #include "RefinementChecks.h"
 
 #include <algorithm>
@@ -22,23 +23,13 @@ using namespace voxplex::checks;
 namespace
 {
 
-/** Which edges of a triangulation are not manifold with these labels, from the mesh. */
-std::vector<InterfaceEdge> BadEdgesOf(
-  const Triangulation<3>& triangulation, const SimplexMesh<3>& mesh)
+/** The edges of a mesh that are not manifold. */
+std::vector<InterfaceEdge> BadEdgesOf(const SimplexMesh<3>& mesh)
 {
-  std::map<Point<3>, VertexId> vertices;
-  for (VertexId v = 0; v < triangulation.VertexIdEnd(); ++v)
-  {
-    if (triangulation.GetVertex(v).Alive)
-    {
-      vertices[triangulation.Position(v)] = v;
-    }
-  }
   std::vector<InterfaceEdge> edges;
   for (const auto& ends : BadEdges(mesh))
   {
-    std::array<VertexId, 2> edge{ vertices.at(mesh.Points[ends[0]]),
-      vertices.at(mesh.Points[ends[1]]) };
+    std::array<std::uint32_t, 2> edge{ ends[0], ends[1] };
     std::sort(edge.begin(), edge.end());
     edges.push_back({ edge, false });
   }
@@ -59,19 +50,20 @@ double TotalVolume(const SimplexMesh<3>& mesh)
 struct Opened
 {
   Opened(const Triangulation<3>& triangulation, const Domain<3>& domain,
-    std::span<const LabelId> labels, unsigned threads = 1)
+    const SimplexLabels& labels, unsigned threads = 1)
+    : Cells(triangulation, labels, {}, this->Numbers, threads)
+    , Pieces(Cells)
   {
     ExtractMesh<3>(triangulation, domain, labels, this->Before, threads);
-    this->Edges = BadEdgesOf(triangulation, this->Before);
-    this->Result = OpenRidges<3>(triangulation, domain, labels, this->Edges);
-    ExtractMesh<3>(
-      triangulation, domain, labels, this->After, threads, {}, { {}, this->Result.Parts });
+    this->Edges = BadEdgesOf(this->Before); // points of the mesh have the numbers of the complex
+    this->Left = OpenRidges<3>(this->Pieces, domain, this->Edges);
+    TetrahedralComplex(this->Pieces).Write(ValuesOf(domain, labels), this->After, threads);
   }
 
   /** Checks what must hold with all labels. */
   void Check() const
   {
-    EXPECT_TRUE(this->Result.Left.empty());
+    EXPECT_TRUE(this->Left.empty());
     EXPECT_TRUE(BadEdges(this->After).empty());
     const std::vector<std::string> complaints = Complaints(this->After);
     EXPECT_TRUE(complaints.empty()) << complaints.front();
@@ -86,8 +78,11 @@ struct Opened
     }
   }
 
+  UninitialisedVector<std::uint32_t> Numbers; ///< of the triangulation's vertices
+  TetrahedralComplex Cells;
+  TetrahedralComplex Pieces; ///< the same with the edges opened
   std::vector<InterfaceEdge> Edges;
-  OpenedRidges<3> Result;
+  std::vector<InterfaceEdge> Left;
   SimplexMesh<3> Before;
   SimplexMesh<3> After;
 };
@@ -212,46 +207,58 @@ TEST(OpenRidges, OpenAllEdgesAtOnce)
   }
 }
 
-// No tetrahedron is lost with its label: all keep pieces, which lie within.
+// No tetrahedron is lost with its label: all keep pieces, which fill it.
 TEST(OpenRidges, LeaveSomethingOfEachTetrahedron)
 {
   const ShuffledBall shuffled;
-  const Triangulation<3>& mesh = shuffled.Context->Mesh;
-  const SimplexLabels labels = shuffled.Labels(7, 3, true);
-  const Opened opened(mesh, PlainLabels(), labels);
-  const auto volumeOf = [&](const std::array<VertexId, 4>& v)
+  const Opened opened(shuffled.Context->Mesh, PlainLabels(), shuffled.Labels(7, 3, true));
+  const TetrahedralComplex& cells = opened.Cells;
+  const TetrahedralComplex& pieces = opened.Pieces;
+  const auto isOld = [&](std::uint32_t t)
+  { return t < cells.Cells.size() && cells.Cells[t].V == pieces.Cells[t].V; };
+  std::vector<std::uint32_t> cut;
+  for (std::uint32_t t = 0; t < cells.Cells.size(); ++t)
   {
-    std::array<const Point<3>*, 4> points;
-    for (std::size_t i = 0; i < 4; ++i)
+    if (!isOld(t))
     {
-      points[i] = v[i] < mesh.VertexIdEnd()
-        ? &mesh.Position(v[i])
-        : &opened.Result.Parts.Points[v[i] - mesh.VertexIdEnd()];
+      cut.push_back(t);
     }
-    return SignedVolume<3>(points.data());
-  };
-  // Pieces come in the order of what they replace, and fill it.
-  const Subdivision<3>& parts = opened.Result.Parts;
-  ASSERT_GT(parts.Replaced.size(), 100u);
-  EXPECT_TRUE(std::is_sorted(parts.Replaced.begin(), parts.Replaced.end()));
-  std::size_t next = 0;
-  for (const SimplexId s : parts.Replaced)
-  {
-    const double volume = volumeOf(mesh.GetSimplex(s).V);
-    double filled = 0.0;
-    bool keepsSome = false;
-    while (filled < volume * (1.0 - 1e-9) && next < parts.Pieces.size())
-    {
-      const double part = volumeOf(parts.Pieces[next].V);
-      EXPECT_GT(part, 0.0);
-      filled += part;
-      keepsSome |= parts.Pieces[next].Label == labels[s];
-      ++next;
-    }
-    EXPECT_NEAR(filled, volume, 1e-9 * volume);
-    EXPECT_TRUE(keepsSome);
   }
-  EXPECT_EQ(next, parts.Pieces.size());
+  ASSERT_GT(cut.size(), 100u);
+  std::map<std::uint32_t, std::pair<double, bool>> filled; // the volume, and whether of its label
+  for (std::uint32_t t = 0; t < pieces.Cells.size(); ++t)
+  {
+    if (!pieces.IsAlive(t) || isOld(t))
+    {
+      continue;
+    }
+    const auto points = pieces.PointsOf(pieces.Cells[t].V);
+    const Point<3> centre = Centroid(points);
+    const auto isInside = [&](std::uint32_t old)
+    {
+      for (unsigned i = 0; i < 4; ++i)
+      {
+        auto corners = cells.PointsOf(cells.Cells[old].V);
+        corners[i] = &centre;
+        if (!(SignedVolume<3>(corners.data()) > 0.0))
+        {
+          return false;
+        }
+      }
+      return true;
+    };
+    const auto old = std::find_if(cut.begin(), cut.end(), isInside);
+    ASSERT_NE(old, cut.end());
+    EXPECT_GT(SignedVolume<3>(points.data()), 0.0);
+    filled[*old].first += SignedVolume<3>(points.data());
+    filled[*old].second |= pieces.Labels[t] == cells.Labels[*old];
+  }
+  for (const std::uint32_t t : cut)
+  {
+    const double volume = SignedVolume<3>(cells.PointsOf(cells.Cells[t].V).data());
+    EXPECT_NEAR(filled[t].first, volume, 1e-9 * volume);
+    EXPECT_TRUE(filled[t].second);
+  }
 }
 
 // The ring lies on a lower face of the image and in front of it, with background beyond.
@@ -296,25 +303,27 @@ TEST(OpenRidges, LeaveNoDentsWhereTheImageCuts)
 }
 
 //------------------------------------------------------------------------------------------------
-TEST(MeshExtraction, PiecesAreBehindTheOtherTetrahedra)
+TEST(OpenRidges, KeepTheOrderOfTheRest)
 {
   const ShuffledBall shuffled;
-  const SimplexLabels labels = shuffled.Labels(3, 2, true);
-  const Opened opened(shuffled.Context->Mesh, PlainLabels(), labels);
+  const Opened opened(shuffled.Context->Mesh, PlainLabels(), shuffled.Labels(3, 2, true));
   ASSERT_GT(opened.After.Points.size(), opened.Before.Points.size());
   EXPECT_TRUE(std::equal(
     opened.Before.Points.begin(), opened.Before.Points.end(), opened.After.Points.begin()));
-  const auto pieces = std::count_if(opened.Result.Parts.Pieces.begin(),
-    opened.Result.Parts.Pieces.end(), [](const Piece<3>& piece) { return piece.Label != 0; });
+  const std::set<std::array<std::uint32_t, 4>> old(
+    opened.Before.Simplices.begin(), opened.Before.Simplices.end());
   auto before = opened.Before.Simplices.begin();
-  for (std::size_t t = 0; t + static_cast<std::size_t>(pieces) < opened.After.Simplices.size(); ++t)
+  for (const auto& simplex : opened.After.Simplices)
   {
-    before = std::find(before, opened.Before.Simplices.end(), opened.After.Simplices[t]);
-    ASSERT_NE(before, opened.Before.Simplices.end()) << t;
+    if (old.count(simplex) != 0)
+    {
+      before = std::find(before, opened.Before.Simplices.end(), simplex);
+      ASSERT_NE(before, opened.Before.Simplices.end());
+    }
   }
 }
 
-TEST(MeshExtraction, PiecesDoNotDependOnThreads)
+TEST(OpenRidges, DoNotDependOnThreads)
 {
   const ShuffledBall shuffled;
   const SimplexLabels labels = shuffled.Labels(4, 3, false);
@@ -364,13 +373,12 @@ TEST(LabelledTriangulation, HasTheElementsOfTheMesh)
   EXPECT_EQ(found, extracted);
 }
 
-TEST(Subdivision, LeavesAGoodMeshAlone)
+TEST(OpenRidges, LeaveAGoodMeshAlone)
 {
   const Triangulated ring(Ring({ 1, 1, 2, 3 }));
   const Opened opened(*ring.Source, PlainLabels(), ring.Labels);
   EXPECT_TRUE(opened.Edges.empty());
-  EXPECT_TRUE(opened.Result.Parts.Replaced.empty());
-  EXPECT_TRUE(opened.Result.Parts.Points.empty());
+  EXPECT_EQ(opened.Cells.Points, opened.Pieces.Points);
   EXPECT_TRUE(std::equal(opened.Before.Simplices.begin(), opened.Before.Simplices.end(),
     opened.After.Simplices.begin(), opened.After.Simplices.end()));
 }
@@ -380,9 +388,11 @@ TEST(OpenRidges, StopOnRequest)
   const Triangulated ring(Ring({ 1, 2, 1, 2 }));
   std::stop_source stop;
   stop.request_stop();
-  const std::vector<InterfaceEdge> edges = BadEdgesOf(*ring.Source, ring.Extract());
+  UninitialisedVector<std::uint32_t> numbers;
+  TetrahedralComplex complex(*ring.Source, ring.Labels, {}, numbers);
   EXPECT_THROW(
-    OpenRidges<3>(*ring.Source, PlainLabels(), ring.Labels, edges, stop.get_token()), Cancelled);
+    OpenRidges<3>(complex, PlainLabels(), BadEdgesOf(ring.Extract()), {}, stop.get_token()),
+    Cancelled);
 }
 
 //------------------------------------------------------------------------------------------------
