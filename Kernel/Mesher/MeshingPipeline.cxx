@@ -34,10 +34,7 @@ constexpr double OptimisedPerEstimated = 1.0;
  */
 constexpr double LargestExcess = 16.0;
 
-/**
- * The fraction of the elements that optimisation leaves. The search plans with it, and optimises
- * the mesh that it finds.
- */
+/** The fraction of the elements that optimisation leaves. The search plans with it. */
 template <int D>
 constexpr double ElementsLeftByOptimisation = D == 3 ? 0.96 : 1.0;
 
@@ -50,11 +47,13 @@ public:
   ElementTarget(const RunEnvironment<D>& run, RunProgress& progress)
     : Run(run)
     , Progress(progress)
+    , LeftOfElements(run.Options.Optimisation.Run ? ElementsLeftByOptimisation<D> : 1.0)
   {
   }
 
   /**
-   * Keeps the mesh nearest to the requested number of elements.
+   * Finishes the mesh nearest to the requested number of elements. If the fraction that is left of them is
+   * not the expected one, so that the number is missed, it searches once more with this fraction.
    * @return false if stopped
    * @throws InputError if no delta gives about the requested number
    */
@@ -74,7 +73,8 @@ public:
       this->Progress.BeginOneOfSeveral();
       const auto isNearest = [&](std::uint64_t elements)
       {
-        search.Add(this->ExpectedElements(elements));
+        search.Add(static_cast<std::uint64_t>(
+          std::llround(this->LeftOfElements * static_cast<double>(elements))));
         return search.Best().Delta == statistics.Delta;
       };
       if (!RefineAndInspect<D>(this->Run, this->Progress, isNearest, nearest))
@@ -92,9 +92,23 @@ public:
     statistics = std::move(best);
     if (!search.Found())
     {
-      this->ThrowNotFound(search);
+      this->ThrowNotFound(search, search.Best().Elements);
     }
     FinishMesh<D>(this->Run, nearest, mesh);
+    const auto made = static_cast<double>(mesh.Simplices.size());
+    const auto wanted = static_cast<double>(this->Run.Options.Sampling.Elements);
+    if (std::abs(made / wanted - 1.0) > DeltaSearch::Tolerance)
+    {
+      if (std::exchange(this->IsCorrected, true))
+      {
+        this->ThrowNotFound(search, mesh.Simplices.size());
+      }
+      this->LeftOfElements *= made / static_cast<double>(search.Best().Elements);
+      const StageTimes times = statistics.Times;
+      statistics = before;
+      statistics.Times = times;
+      return this->Mesh(mesh);
+    }
     for (MeshingRun& run : statistics.Runs)
     {
       run.Elements = run.Delta == statistics.Delta ? mesh.Simplices.size() : run.Elements;
@@ -128,16 +142,9 @@ private:
       std::max(delta, estimate.SmallestSize / SpacingFloorFraction));
   }
 
-  /** The expected number of elements after optimisation. */
-  std::uint64_t ExpectedElements(std::uint64_t inspected) const
+  /** @param elements of the nearest mesh */
+  [[noreturn]] void ThrowNotFound(const DeltaSearch& search, std::uint64_t elements) const
   {
-    return static_cast<std::uint64_t>(std::llround(static_cast<double>(inspected) *
-      (this->Run.Options.Optimisation.Run ? ElementsLeftByOptimisation<D> : 1.0)));
-  }
-
-  [[noreturn]] void ThrowNotFound(const DeltaSearch& search) const
-  {
-    const std::uint64_t elements = search.Best().Elements;
     const bool isCoarse =
       this->Run.Options.Sampling.Grading.Mode == GradingMode::LocalFeatureSize &&
       elements < this->Run.Options.Sampling.Elements;
@@ -155,6 +162,8 @@ private:
 
   const RunEnvironment<D> Run;
   RunProgress& Progress;
+  double LeftOfElements;    ///< the fraction of those inspected that the mesh is expected to have
+  bool IsCorrected = false; ///< whether it is that of an earlier mesh
 };
 
 } // namespace
