@@ -94,7 +94,6 @@ private:
     what.Balance = this->Opts.Balancers.front();
     what.Pin = this->Opts.Pin;
     what.Seeds = !this->Opts.NoSeeds;
-    what.Eager = this->Opts.Eager;
     return what;
   }
 
@@ -282,7 +281,6 @@ MeshingOptions<3> DefaultsOf(const ScalingOptions& options, unsigned threads)
   result.Team.Balance = options.Balancers.front();
   result.Team.Pin = options.Pin;
   result.Team.SeedsPerThread = options.NoSeeds ? 0 : result.Team.SeedsPerThread;
-  result.Team.RemoveEagerly = options.Eager;
   return result;
 }
 

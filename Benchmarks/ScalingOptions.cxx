@@ -38,7 +38,6 @@ options:
   --repeat K         rounds (default 3); medians are printed
   --pin              keeps each refinement thread on a core of its own
   --no-seeds         starts several threads from the box alone, as the thesis does
-  --eager            takes elements out of the lists of poor elements when they die
   --json FILE        also writes all runs to FILE
 )";
 
@@ -144,7 +143,6 @@ ScalingOptions ParseScalingOptions(int argc, char** argv)
     { "--ceiling", [&] { options.Ceiling = true; } },
     { "--pin", [&] { options.Pin = true; } },
     { "--no-seeds", [&] { options.NoSeeds = true; } },
-    { "--eager", [&] { options.Eager = true; } },
   };
   table.File = &options.Image;
   ReadArguments(argc, argv, table);

@@ -36,7 +36,6 @@ struct ScalingOptions
   bool Ceiling = false;
   bool Pin = false;
   bool NoSeeds = false;
-  bool Eager = false;
 };
 
 /** @throws std::exception with a message if the arguments are wrong */

@@ -46,7 +46,6 @@ ScalingRecord RunOnce(LabelVolume&& image, const Configuration& what)
   options.Team.Synchronise = what.Synchronise;
   options.Team.Pin = what.Pin;
   options.Team.SeedsPerThread = what.Seeds ? options.Team.SeedsPerThread : 0;
-  options.Team.RemoveEagerly = what.Eager;
   const VoxplexRun result = RunVoxplex(std::move(image), options);
 
   ScalingRecord record;

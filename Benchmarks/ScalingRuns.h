@@ -27,7 +27,6 @@ struct Configuration
   bool Synchronise = false; ///< use the code for several threads even with one thread
   bool Pin = false;
   bool Seeds = true;   ///< sample interfaces before the threads start
-  bool Eager = false;  ///< eager removal from the lists of poor elements
   unsigned Copies = 1; ///< independent processes at once, each with this number of threads
 
   bool operator==(const Configuration&) const = default;

@@ -396,8 +396,7 @@ void ScalingTables::WriteJson(std::ostream& stream) const
            << ", \"contention\": \"" << ManagerOf(what) << "\", \"balance\": \"" << BalancerOf(what)
            << "\",\n      \"synchronise\": " << std::boolalpha << what.Synchronise
            << ", \"pin\": " << what.Pin << ", \"seeds\": " << what.Seeds
-           << ", \"eager\": " << what.Eager << ", \"copies\": " << what.Copies
-           << ",\n      \"speed_up\": " << this->SpeedUp(series)
+           << ", \"copies\": " << what.Copies << ",\n      \"speed_up\": " << this->SpeedUp(series)
            << ", \"speed_up_total\": " << this->TotalSpeedUp(series) << ",\n      \"medians\": {";
     for (const Value& value : Values)
     {

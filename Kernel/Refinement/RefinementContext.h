@@ -217,14 +217,6 @@ struct RelaxedRegion
   Relaxation Step;
 };
 
-/** The lists of poor elements from which a dead simplex may be taken out. */
-struct EagerRemoval
-{
-  PoorElementList::Directory Directory;
-  std::vector<PoorElementList*> Lists; ///< by number
-  std::vector<unsigned> Socket;        ///< of the list's thread
-};
-
 /** The data of one thread. Running threads write to no common cache line. */
 template <int D>
 struct alignas(CacheLineSize) RefinementWorker
@@ -236,32 +228,8 @@ struct alignas(CacheLineSize) RefinementWorker
       { return mesh.State(e.Id).CurrentGeneration() == e.Generation; });
   }
 
-  /**
-   * If removal is eager, takes the simplices that the last operation deleted out of the lists of
-   * poor elements. Entries in lists of another socket are left to lazy removal (thesis, section
-   * 3.2.3).
-   */
-  void RemoveDeleted(const Triangulation<D>& mesh)
-  {
-    if (!this->Eager)
-    {
-      return;
-    }
-    for (const SimplexId s : this->Kernel.Deleted)
-    {
-      const PoorElementList::Directory::Slot slot = this->Eager->Directory.Find(s);
-      if (slot.List != None && this->Eager->Socket[slot.List] == this->Eager->Socket[this->Number])
-      {
-        const std::uint32_t generation = mesh.State(s).CurrentGeneration() - 1;
-        this->Eager->Lists[slot.List]->Remove({ s, generation }, slot.Index);
-      }
-    }
-  }
-
   typename Triangulation<D>::Worker Kernel;
   PoorElementList Poor;
-  EagerRemoval* Eager = nullptr;                ///< null if removal is lazy
-  unsigned Number = 0;                          ///< of this worker's list
   std::vector<PoorElementList::Entry> Deferred; ///< rolled back; tried again after the next success
   std::vector<PendingRemoval<D>> PendingRemovals;
   std::vector<RelaxedRegion<D>> RelaxedRegions; ///< the regions where rules began to give way

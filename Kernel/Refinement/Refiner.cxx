@@ -101,10 +101,6 @@ void Refiner<Rules>::MakeWorkers(unsigned threads)
     this->Overheads.push_back(std::make_unique<Overhead>());
   }
   this->Hardware.resize(threads);
-  if (this->Options.RemoveEagerly)
-  {
-    this->RemoveEagerly();
-  }
   if (this->Options.FineGrained)
   {
     this->HelpEachOther(*this->Team.Help());
@@ -123,20 +119,6 @@ void Refiner<Rules>::MakeWorkers(unsigned threads)
     this->template Screen<Rules>(*this->Workers[t],
       simplices.data() + simplices.size() * t / threads,
       simplices.data() + simplices.size() * (t + 1) / threads);
-  }
-}
-
-template <typename Rules>
-void Refiner<Rules>::RemoveEagerly()
-{
-  for (unsigned t = 0; t < this->Workers.size(); ++t)
-  {
-    RefinementWorker<D>& worker = *this->Workers[t];
-    this->Eager.Lists.push_back(&worker.Poor);
-    this->Eager.Socket.push_back(this->Team.Places().Group[t][0]);
-    worker.Eager = &this->Eager;
-    worker.Number = t;
-    worker.Poor.RemoveEagerly(this->Eager.Directory, t);
   }
 }
 
@@ -230,7 +212,7 @@ PoorElementList::Entry Refiner<Rules>::NextAlive(RefinementWorker<D>& me)
   while (!me.Poor.Empty())
   {
     const PoorElementList::Entry e = me.Poor.Pop();
-    if (e.Id != None && this->IsAlive(e))
+    if (this->IsAlive(e))
     {
       return e;
     }

@@ -106,8 +106,6 @@ private:
   /** Makes the workers 1, 2 ..., each with its share of a seeded triangulation. */
   void MakeWorkers(unsigned threads);
 
-  void RemoveEagerly();
-
   bool WorkAlone(const Monitor& goOn);
 
   void Work(unsigned thread, const Monitor& goOn);
@@ -142,7 +140,6 @@ private:
   const std::vector<FeatureSeed<D>> Seeds;
   const RefinementStart Start;
   RefinementTeam Team;
-  EagerRemoval Eager;
   std::vector<std::unique_ptr<Overhead>> Overheads;
   std::vector<HardwareCounters::Counts> Hardware; ///< of each thread, written at its end
   double SecondsToSeed = 0.0;

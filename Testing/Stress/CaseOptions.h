@@ -17,7 +17,11 @@ namespace voxplex::stress
 template <int D, typename Visit>
 void VisitOptions(const StressCase<D>& of, Visit&& visit)
 {
-#define VOXPLEX_OPTION(path) [](auto& c) -> auto& { return c.Options.path; }
+#define VOXPLEX_OPTION(path)                                                                       \
+  [](auto& c) -> auto&                                                                             \
+  {                                                                                                \
+    return c.Options.path;                                                                         \
+  }
   visit("--radius-edge", VOXPLEX_OPTION(Shape.RadiusEdgeRatio));
   visit("--force", VOXPLEX_OPTION(Limits.Force));
   visit("--gradation", VOXPLEX_OPTION(Sampling.Gradation));
@@ -26,7 +30,6 @@ void VisitOptions(const StressCase<D>& of, Visit&& visit)
   visit("--reproducible", VOXPLEX_OPTION(Team.Reproducible));
   visit("--pin", VOXPLEX_OPTION(Team.Pin));
   visit("Synchronise", VOXPLEX_OPTION(Team.Synchronise));
-  visit("RemoveEagerly", VOXPLEX_OPTION(Team.RemoveEagerly));
   visit("SeedsPerThread", VOXPLEX_OPTION(Team.SeedsPerThread));
   visit("--smallest-component", VOXPLEX_OPTION(Components.Smallest), 0);
   visit("--exact-components", VOXPLEX_OPTION(Components.Exact));

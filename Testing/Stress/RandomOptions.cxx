@@ -74,7 +74,7 @@ void DrawThreads(MeshingOptions<D>& options, Random& random)
   options.Team.Balance = random.OneOf({ BalancePolicy::Random, BalancePolicy::Hierarchical });
   options.Team.Pin = random.Chance(0.02);
   options.Team.Synchronise = random.Chance(0.1);
-  options.Team.RemoveEagerly = random.Chance(0.2);
+  random.Chance(0.2); // of an option that is gone: the numbers of cases keep their meaning
   options.Team.FineGrained = random.Chance(0.3);
   options.Team.SeedsPerThread =
     static_cast<unsigned>(random.Chance(0.7) ? 128 : random.OneOf({ 0, 1, 10, 1000 }));

@@ -97,7 +97,6 @@ public:
     {
       return;
     }
-    this->Worker.RemoveDeleted(this->Context.Mesh);
     for (const SimplexId t : this->Worker.Kernel.Created)
     {
       if (this->MayBePoor(t))

@@ -40,11 +40,6 @@ struct TeamOptions
    */
   bool Synchronise = false;
   /**
-   * Several threads: remove simplices from the lists of poor elements when they are deleted (the
-   * thesis' REMOVE_ON_THE_FLY), not when a thread takes them from the list.
-   */
-  bool RemoveEagerly = false;
-  /**
    * If there are several threads, but not more than processors: waiting threads help others with
    * large insertions (thesis, 4.6.2).
    */

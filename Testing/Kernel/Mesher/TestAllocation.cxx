@@ -203,7 +203,6 @@ TEST(Allocation, AnyMayFailInFourPinnedThreads)
 {
   MeshingOptions<3> options = Options(4);
   options.Team.Pin = true;
-  options.Team.RemoveEagerly = true;
   FailEverywhere(options);
 }
 

@@ -251,7 +251,6 @@ TEST(ParallelMeshing, CancelledAtAnyMoment)
     MeshingOptions<3> options = Options(0.3, k % 6 == 5 ? 1 : 8);
     options.Team.Contention = static_cast<ContentionPolicy>(k % 4);
     options.Team.Balance = static_cast<BalancePolicy>(k / 4 % 2);
-    options.Team.RemoveEagerly = k % 3 == 0;
     ImageMesher<3> mesher(options);
     std::clock_t cancelled = 0; // processor time of all threads: others may keep the machine busy
     int calls = 0;

@@ -192,7 +192,6 @@ TEST_P(ParallelRefinement, NoRuleAppliesAfterwards)
       SCOPED_TRACE("delta " + std::to_string(delta));
       RefinementContext<3> context(*ball, SettingsFor<3>(delta), Around(*ball, delta), 1000);
       TeamOptions team = Team(threads, contention, balance);
-      team.RemoveEagerly = (run + run / 2) % 2 == 1;
       team.SeedsPerThread = run % 3 == 1 ? 128 : 0;
       ++run;
       Refiner<Rules3D> refiner(context, team);
@@ -391,7 +390,6 @@ void ExpectDomainErrorsLeaveRun()
       TeamOptions team =
         Team(threads, static_cast<ContentionPolicy>(k % 4), static_cast<BalancePolicy>(k / 4 % 2));
       team.Synchronise = k % 3 == 0;
-      team.RemoveEagerly = k % 5 < 2;
       Refiner<Rules3D> refiner(context, team);
       EXPECT_THROW(refiner.Run(nullptr), Exception);
       EXPECT_GE(queries, failing);

@@ -60,29 +60,3 @@ TEST(PoorElementList, DropsDeadEntriesBeforeItGrows)
     EXPECT_EQ(drops.Alive.size(), number / 10);
   }
 }
-
-// The directory of eager removal follows entries that move.
-TEST(PoorElementList, FindsEntriesAfterDeadOnesWereDropped)
-{
-  PoorElementList list;
-  PoorElementList::Directory directory;
-  list.RemoveEagerly(directory, 3);
-  list.DropDeadBy([](const PoorElementList::Entry& e) { return e.Id % 2 == 0; });
-  constexpr SimplexId number = 5000;
-  for (SimplexId s = 0; s < number; ++s)
-  {
-    list.Push(s, 7);
-  }
-  EXPECT_LT(list.Size(), number);
-  for (SimplexId s = 0; s < number; s += 2)
-  {
-    const PoorElementList::Directory::Slot slot = directory.Find(s);
-    EXPECT_EQ(slot.List, 3u);
-    list.Remove({ s, 7 }, slot.Index);
-  }
-  while (!list.Empty())
-  {
-    const SimplexId left = list.Pop().Id;
-    EXPECT_TRUE(left == None || left % 2 == 1) << left;
-  }
-}

@@ -91,7 +91,6 @@ TEST_P(RefinementStress, TinyRandomImages)
     options.Team.Contention = contention;
     options.Team.Balance = balance;
     options.SmoothingSigma = seed % 3 == 0 ? 0.0 : 1.0;
-    options.Team.RemoveEagerly = seed % 4 == 1;
     options.Team.SeedsPerThread = seed % 4 < 2 ? 128 : 0;
     MeshingStatistics statistics;
     ExpectSound(MeshOf(image, options, &statistics));

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-// The rules step by step, while a second worker owns vertices that they need; and eager removal from the
-// lists of poor elements.
+// The rules step by step, while a second worker owns vertices that they need.
 #include "Refinement/Rules/Rules3D.h"
 #include "RefinementChecks.h"
 #include "TriangulationChecks.h"
@@ -235,65 +234,4 @@ TEST_F(RulesInContention, AContendedRemovalIsPutOff)
     }
   }
   EXPECT_GT(putOff, 0) << "the test tests nothing";
-}
-
-//------------------------------------------------------------------------------------------------
-// What dies leaves the list of a thread of the same socket, and stays in that of another until it comes up.
-TEST(EagerRemoval, DeadSimplicesLeaveTheListsOfTheSocket)
-{
-  const BallDomain ball(5.0);
-  RefinementContext<3> context(ball, SettingsFor<3>(1.0), Around(ball, 1.0), 1000);
-  Triangulation<3>& mesh = context.Mesh;
-  EagerRemoval eager;
-  RefinementWorker<3> near(context);
-  RefinementWorker<3> far(context);
-  unsigned number = 0;
-  for (RefinementWorker<3>* worker : { &near, &far })
-  {
-    worker->Eager = &eager;
-    worker->Number = number;
-    worker->Poor.RemoveEagerly(eager.Directory, number);
-    eager.Lists.push_back(&worker->Poor);
-    eager.Socket.push_back(number);
-    ++number;
-  }
-  const auto insert = [&](const Point<3>& p)
-  {
-    const SimplexId seed = mesh.FindConflict(near.Kernel, p, AnyAlive(mesh));
-    ASSERT_EQ(mesh.Insert(near.Kernel, p, VertexKind::Free, seed), InsertionOutcome::Inserted);
-  };
-  std::mt19937 random(1);
-  for (const Point<3>& p : RandomPoints<3>(50, 5.0, random))
-  {
-    insert(p);
-  }
-  std::size_t pushed = 0;
-  for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
-  {
-    if (mesh.IsAlive(s))
-    {
-      (s % 3 == 0 ? far : near).Poor.Push(s, mesh.State(s).Generation);
-      ++pushed;
-    }
-  }
-  insert({ 2.5, 2.5, 2.5 });
-  near.RemoveDeleted(mesh);
-  std::size_t dead = 0;
-  std::size_t left = 0;
-  for (RefinementWorker<3>* worker : { &near, &far })
-  {
-    while (!worker->Poor.Empty())
-    {
-      const PoorElementList::Entry e = worker->Poor.Pop();
-      if (e.Id != None)
-      {
-        const bool alive = mesh.State(e.Id).Generation == e.Generation;
-        EXPECT_TRUE(alive || worker == &far);
-        dead += alive ? 0 : 1;
-        ++left;
-      }
-    }
-  }
-  EXPECT_GT(dead, 0u);
-  EXPECT_EQ(pushed - (left - dead), near.Kernel.Deleted.Size()) << "somebody living was taken out";
 }
