@@ -154,10 +154,12 @@ template <int D>
 class LayerRepair
 {
 public:
+  /** @param changed the simplices that have been given labels to show layers */
   LayerRepair(const Triangulation<D>& triangulation, std::span<const LabelId> labels,
-    const ManifoldRepairOptions<D>& options)
+    const std::set<SimplexId>& changed, const ManifoldRepairOptions<D>& options)
     : Mesh(triangulation)
     , Labels(labels)
+    , Changed(changed)
     , Finder(triangulation, labels, options)
     , Near(triangulation, labels)
     , Rules(this->Near, labels, options)
@@ -178,7 +180,7 @@ public:
       double least = 0.0;
       for (const SimplexId t : { s, n })
       {
-        if (this->Labels[t] != this->Mesh.State(t).Given)
+        if (this->Changed.contains(t))
         {
           continue; // each simplex is changed once at most, so that passes end
         }
@@ -231,6 +233,7 @@ private:
 
   const Triangulation<D>& Mesh;
   const std::span<const LabelId> Labels;
+  const std::set<SimplexId>& Changed;
   const HiddenLayerFinder<D> Finder;
   const repair::Neighbourhood<D> Near;
   const repair::ChangeRules<D> Rules;
@@ -248,11 +251,12 @@ std::vector<SimplexId> ShowHiddenLayers(const Triangulation<D>& triangulation,
     return {};
   }
   repair::OrderedChanges<D> changes(triangulation, labels, layers.size(), threads, stop);
-  while (changes.Pass([&] { return LayerRepair<D>(triangulation, labels, options); },
+  while (changes.Pass([&]
+    { return LayerRepair<D>(triangulation, labels, changes.GetChanged(), options); },
     [&](const LayerRepair<D>& finder, std::size_t k) { return finder.Propose(layers[k]); }))
   {
   }
-  return changes.TakeChanged();
+  return { changes.GetChanged().begin(), changes.GetChanged().end() };
 }
 
 template class HiddenLayerFinder<3>;

@@ -59,7 +59,7 @@ bool InterfaceCheck<D>::InspectSampled(const ManifoldLabels<D>& made)
     return this->InspectAll(made);
   }
   const std::vector<VoxelFace<D>> far = this->Distances.FindFar(
-    LabelledTriangulation<D>(this->Mesh, made.Labels), this->Sampling.Sampled());
+    LabelledTriangulation<D>(this->Mesh, this->Mesh.Labels()), this->Sampling.Sampled());
   return !far.empty() && this->Sample(far, made);
 }
 
@@ -78,7 +78,7 @@ bool InterfaceCheck<D>::InspectAll(const ManifoldLabels<D>& made)
     return false;
   }
   const std::vector<VoxelFace<D>> far =
-    this->Distances.FindFar(LabelledTriangulation<D>(this->Mesh, made.Labels));
+    this->Distances.FindFar(LabelledTriangulation<D>(this->Mesh, this->Mesh.Labels()));
   return !far.empty() && this->Sample(far, made);
 }
 

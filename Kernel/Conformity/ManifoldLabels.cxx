@@ -29,6 +29,7 @@ template <int D>
 ManifoldLabeller<D>::ManifoldLabeller(Triangulation<D>& triangulation,
   const ManifoldRepairOptions<D>& options, unsigned threads, const std::stop_token& stop)
   : Source(triangulation)
+  , Labels(triangulation.Labels())
   , Options(options)
   , Threads(threads)
   , Stop(stop)
@@ -39,13 +40,13 @@ template <int D>
 ManifoldLabels<D> ManifoldLabeller<D>::Take()
 {
   ManifoldLabels<D> made;
-  made.New = this->TakeLabels(made.Labels);
+  made.New = this->TakeLabels();
   if constexpr (D == 3) // in 4D no facet is too sharp
   {
-    const Simplices taken = this->TakeBack(made.Labels);
+    const Simplices taken = this->TakeBack();
     made.New.insert(made.New.end(), taken.begin(), taken.end());
   }
-  this->Mark(made.Labels, made.New);
+  this->Mark(made.New);
   return made;
 }
 
@@ -53,30 +54,36 @@ template <int D>
 ManifoldLabels<D> ManifoldLabeller<D>::Repair(
   ManifoldLabels<D> made, GapOptions gaps, InterfaceStatistics& statistics)
 {
-  std::vector<SimplexId> changed = std::exchange(made.New, {});
+  const Simplices fresh = std::exchange(made.New, {});
+  Simplices given; // another label than Take() has given them
+  Simplices changed = fresh;
   const bool areFew = this->AreFew(changed);
+  const auto add = [&](const Simplices& some)
+  {
+    given.insert(given.end(), some.begin(), some.end());
+    changed.insert(changed.end(), some.begin(), some.end());
+  };
   if (this->Options.Contacts)
   {
     std::sort(changed.begin(), changed.end());
-    const bool areMost = 2 * changed.size() > made.Labels.size();
-    made.Layers = FindHiddenLayers<D>(this->Source, made.Labels, areMost ? nullptr : &changed,
+    const bool areMost = 2 * changed.size() > this->Labels.size();
+    made.Layers = FindHiddenLayers<D>(this->Source, this->Labels, areMost ? nullptr : &changed,
       this->Options, this->Threads, this->Stop);
-    const std::vector<SimplexId> shown = ShowHiddenLayers<D>(
-      this->Source, made.Labels, made.Layers, this->Options, this->Threads, this->Stop);
-    changed.insert(changed.end(), shown.begin(), shown.end());
+    add(ShowHiddenLayers<D>(
+      this->Source, this->Labels, made.Layers, this->Options, this->Threads, this->Stop));
   }
   if (this->Options.Kept)
   {
     JoinedPieces<D> joined =
-      JoinPieces<D>(this->Source, made.Labels, this->Options, gaps, this->Stop);
-    changed.insert(changed.end(), joined.Relabelled.begin(), joined.Relabelled.end());
+      JoinPieces<D>(this->Source, this->Labels, this->Options, gaps, this->Stop);
+    add(joined.Relabelled);
     made.Gaps = std::move(joined.Gaps);
   }
   const std::vector<InterfaceRidge<D>> ridges = areFew
-    ? FindNonManifoldRidgesOf<D>(this->Source, made.Labels, changed, this->Threads, this->Stop)
-    : FindNonManifoldRidges<D>(this->Source, made.Labels, this->Threads, this->Stop);
+    ? FindNonManifoldRidgesOf<D>(this->Source, this->Labels, changed, this->Threads, this->Stop)
+    : FindNonManifoldRidges<D>(this->Source, this->Labels, this->Threads, this->Stop);
   ManifoldRepairResult<D> result =
-    RepairManifold<D>(this->Source, made.Labels, ridges, this->Options, this->Threads, this->Stop);
+    RepairManifold<D>(this->Source, this->Labels, ridges, this->Options, this->Threads, this->Stop);
   statistics.NonManifoldRepaired += ridges.size() - result.Left.size();
   statistics.NonManifoldLeft = result.Left.size();
   made.NonManifold = std::move(result.Left);
@@ -87,10 +94,12 @@ ManifoldLabels<D> ManifoldLabeller<D>::Repair(
   std::erase_if(made.Layers,
     [&](const HiddenLayer<D>& layer)
     {
-      const HiddenLayerFinder<D> finder(this->Source, made.Labels, this->Options);
+      const HiddenLayerFinder<D> finder(this->Source, this->Labels, this->Options);
       return !finder.Find(layer.Cell, layer.Facet);
     });
-  this->Mark(made.Labels, this->KeepLabels(made));
+  add(result.Relabelled);
+  this->Mark(given);
+  this->Examine(fresh, made);
   return made;
 }
 
@@ -103,42 +112,39 @@ bool ManifoldLabeller<D>::AreFew(const Simplices& some) const
 }
 
 template <int D>
-void ManifoldLabeller<D>::Mark(const SimplexLabels& labels, const Simplices& changed)
+void ManifoldLabeller<D>::Mark(const Simplices& changed)
 {
   if (this->AreFew(changed))
   {
-    MarkInterfaceVerticesOf<D>(this->Source, labels, changed, this->Threads, this->Stop);
+    MarkInterfaceVerticesOf<D>(this->Source, this->Labels, changed, this->Threads, this->Stop);
   }
   else
   {
-    MarkInterfaceVertices<D>(this->Source, labels, this->Threads, this->Stop);
+    MarkInterfaceVertices<D>(this->Source, this->Labels, this->Threads, this->Stop);
   }
 }
 
 /** Gives simplices that are not examined the labels at their circumcentres, and returns them. */
 template <int D>
-auto ManifoldLabeller<D>::TakeLabels(SimplexLabels& labels) const -> Simplices
+auto ManifoldLabeller<D>::TakeLabels() -> Simplices
 {
   const std::size_t ids = this->Source.SimplexIdEnd();
-  labels.resize(ids);
+  this->Labels.resize(ids);
   return ParallelCollect<SimplexId>(
     ids, Grain, this->Threads,
     [&](std::size_t first, std::size_t last, Simplices& fresh)
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        labels[s] = 0;
         if (!this->Source.IsAlive(s))
         {
-          continue;
+          this->Labels[s] = 0;
         }
-        SimplexState& state = this->Source.State(s);
-        if (!state.Examined)
+        else if (!this->Source.State(s).Examined)
         {
-          state.Given = LabelAtCentre(this->Source, *this->Options.Surfaces, s);
+          this->Labels[s] = LabelAtCentre(this->Source, *this->Options.Surfaces, s);
           fresh.push_back(s);
         }
-        labels[s] = state.Given;
       }
     },
     this->Stop);
@@ -151,8 +157,9 @@ auto ManifoldLabeller<D>::TakeLabels(SimplexLabels& labels) const -> Simplices
  * @return the simplices that have lost a label
  */
 template <int D>
-auto ManifoldLabeller<D>::TakeBack(SimplexLabels& labels) const -> Simplices
+auto ManifoldLabeller<D>::TakeBack() -> Simplices
 {
+  SimplexLabels& labels = this->Labels;
   const auto atCentre = [this](SimplexId s)
   { return LabelAtCentre(this->Source, *this->Options.Surfaces, s); };
   const Simplices given = ParallelCollect<SimplexId>(
@@ -192,7 +199,7 @@ auto ManifoldLabeller<D>::TakeBack(SimplexLabels& labels) const -> Simplices
       if (labels[s] != atCentre(s) && isTooSharp(s))
       {
         this->Source.State(s).Examined = false;
-        this->Source.State(s).Given = labels[s] = atCentre(s);
+        labels[s] = atCentre(s);
         taken.push_back(s);
         isAgain = true;
       }
@@ -201,30 +208,15 @@ auto ManifoldLabeller<D>::TakeBack(SimplexLabels& labels) const -> Simplices
   return taken;
 }
 
-/** Returns the simplices that have another label than TakeLabels() gave them. */
+/** Nothing is to be done around the fresh simplices, except around what is left. */
 template <int D>
-auto ManifoldLabeller<D>::KeepLabels(const ManifoldLabels<D>& made) -> Simplices
+void ManifoldLabeller<D>::Examine(const Simplices& fresh, const ManifoldLabels<D>& made)
 {
-  const SimplexLabels& labels = made.Labels;
-  Simplices changed = ParallelCollect<SimplexId>(
-    labels.size(), Grain, this->Threads,
-    [&](std::size_t first, std::size_t last, Simplices& some)
-    {
-      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
-      {
-        SimplexState& state = this->Source.State(s);
-        if (this->Source.IsAlive(s))
-        {
-          if (std::exchange(state.Given, labels[s]) != labels[s])
-          {
-            some.push_back(s);
-          }
-          state.Examined = true;
-        }
-      }
-    },
-    this->Stop);
-  const repair::Neighbourhood<D> near(this->Source, labels);
+  for (const SimplexId s : fresh)
+  {
+    this->Source.State(s).Examined = true;
+  }
+  const repair::Neighbourhood<D> near(this->Source, this->Labels);
   for (const HiddenLayer<D>& layer : made.Layers)
   {
     this->Source.State(layer.Cell).Examined = false;
@@ -236,7 +228,6 @@ auto ManifoldLabeller<D>::KeepLabels(const ManifoldLabels<D>& made) -> Simplices
       this->Source.State(s).Examined = false;
     }
   }
-  return changed;
 }
 
 template class ManifoldLabeller<3>;

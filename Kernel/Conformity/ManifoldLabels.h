@@ -21,12 +21,11 @@
 namespace voxplex
 {
 
-/** The results of ManifoldLabeller. */
+/** What ManifoldLabeller says of the labels. */
 template <int D>
 struct ManifoldLabels
 {
-  SimplexLabels Labels;                       ///< of each simplex id
-  std::vector<SimplexId> New = {};            ///< that are not examined; empty after repair
+  std::vector<SimplexId> New = {}; ///< simplices that are not examined; empty after repair
   std::vector<InterfaceRidge<D>> NonManifold; ///< ridges that are not manifold with these labels
   std::vector<Point<D>> Places;               ///< of these ridges
   std::vector<HiddenLayer<D>> Layers;         ///< hidden with these labels
@@ -34,12 +33,13 @@ struct ManifoldLabels
 };
 
 /**
- * @brief Labels the simplices of a triangulation so that boundaries of labels are manifold.
+ * @brief Labels the simplices of a triangulation (Triangulation::Labels()) so that boundaries of labels
+ * are manifold.
  *
  * Each simplex gets the label at its circumcentre. Then ShowHiddenLayers(), JoinPieces() (3D) and
  * RepairManifold() give some of them another label.
  *
- * A simplex keeps the label that it was given as long as it lives (SimplexState::Given), unless after
+ * A simplex keeps the label that it was given as long as it lives, unless there are time planes, or after
  * further refinement this leaves an interface facet with small angles (3D). Then defects are looked for at
  * the simplices that are not Examined: those that are new, those that have lost a label in this way, and
  * those around defects that nothing has mended. Vertices on interfaces are marked in the same way.
@@ -59,7 +59,7 @@ public:
     unsigned threads, const std::stop_token& stop);
 
   /**
-   * The labels that simplices were given, or have at their circumcentres. Vertices on interfaces are
+   * Gives simplices that are not Examined the labels at their circumcentres. Vertices on interfaces are
    * marked. Takes time linear in the number of simplices.
    *
    * No thread may change the triangulation during the call.
@@ -78,16 +78,19 @@ public:
   ManifoldLabels<D> Repair(
     ManifoldLabels<D> taken, GapOptions gaps, InterfaceStatistics& statistics);
 
+  const SimplexLabels& GetLabels() const { return this->Labels; }
+
 private:
   using Simplices = std::vector<SimplexId>;
 
-  Simplices TakeLabels(SimplexLabels& labels) const;
-  Simplices TakeBack(SimplexLabels& labels) const;
+  Simplices TakeLabels();
+  Simplices TakeBack();
   bool AreFew(const Simplices& some) const;
-  void Mark(const SimplexLabels& labels, const Simplices& changed);
-  Simplices KeepLabels(const ManifoldLabels<D>& made);
+  void Mark(const Simplices& changed);
+  void Examine(const Simplices& fresh, const ManifoldLabels<D>& made);
 
   Triangulation<D>& Source;
+  SimplexLabels& Labels; ///< of the triangulation
   const ManifoldRepairOptions<D> Options;
   const unsigned Threads;
   const std::stop_token Stop;

@@ -27,7 +27,7 @@ ManifoldRepairResult<D> RepairManifold(const Triangulation<D>& triangulation,
     { return finder.Propose(ridges[r].Vertices); }))
   {
   }
-  std::vector<SimplexId> changed = changes.TakeChanged();
+  std::vector<SimplexId> changed(changes.GetChanged().begin(), changes.GetChanged().end());
   std::vector<InterfaceRidge<D>> left = makeFinder().FindLeft(ridges, changed);
   return { std::move(left), std::move(changed) };
 }

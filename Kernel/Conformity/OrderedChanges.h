@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -85,7 +86,7 @@ public:
         },
         this->Stop);
     }
-    const std::size_t before = this->Changed.size();
+    const std::uint32_t before = this->Time;
     const auto finder = makeFinder();
     for (std::size_t k = 0; k < this->Entries.size(); ++k)
     {
@@ -96,17 +97,11 @@ public:
         this->Make(*best);
       }
     }
-    return this->Changed.size() > before;
+    return this->Time > before;
   }
 
-  /** The simplices that have another label, ascending. */
-  std::vector<SimplexId> TakeChanged()
-  {
-    std::sort(this->Changed.begin(), this->Changed.end());
-    this->Changed.erase(
-      std::unique(this->Changed.begin(), this->Changed.end()), this->Changed.end());
-    return std::move(this->Changed);
-  }
+  /** The simplices that were given labels. */
+  const std::set<SimplexId>& GetChanged() const { return this->Changed; }
 
 private:
   struct KnownProposal
@@ -134,7 +129,7 @@ private:
     for (const SimplexId t : change.Cells)
     {
       this->Labels[t] = change.Label;
-      this->Changed.push_back(t);
+      this->Changed.insert(t);
       for (const VertexId v : this->Source.GetSimplex(t).V)
       {
         this->LastChanges[v] = this->Time;
@@ -149,8 +144,8 @@ private:
   const std::stop_token& Stop;
   std::vector<std::uint32_t> LastChanges; ///< around each vertex: the time of the last
   std::vector<KnownProposal> Entries;     ///< of each defect
-  std::vector<SimplexId> Changed;         ///< may be repeated
-  std::uint32_t Time = 1;                 ///< the number of changes, plus 1
+  std::set<SimplexId> Changed;
+  std::uint32_t Time = 1; ///< the number of changes, plus 1
 };
 
 } // namespace voxplex::repair

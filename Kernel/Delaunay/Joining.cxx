@@ -53,6 +53,7 @@ void Triangulation<D>::Join(std::span<const Triangulation* const> parts)
   this->Marks.Grow(static_cast<std::uint32_t>(simplices));
   this->States.Grow(static_cast<std::uint32_t>(simplices));
 
+  this->MeshLabels.clear();
   VertexId nextVertex = 0;
   SimplexId nextSimplex = 0;
   std::map<Point<D>, VertexId> onFace; ///< the vertices of the common face with the next part

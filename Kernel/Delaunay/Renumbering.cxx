@@ -174,6 +174,14 @@ void Triangulation<D>::Renumber(unsigned threads)
   this->Simplices.Reorder(simplices, threads);
   this->States.Reorder(simplices, threads);
   this->Marks.Reorder(simplices, threads);
+  if (!this->MeshLabels.empty())
+  {
+    this->MeshLabels.resize(this->SimplexIdEnd(), 0);
+    UninitialisedVector<LabelId> labels(simplices.size());
+    ForAll(
+      labels.size(), threads, [&](std::size_t i) { labels[i] = this->MeshLabels[simplices[i]]; });
+    this->MeshLabels.swap(labels);
+  }
   this->NextVertex.store(static_cast<VertexId>(vertices.size()), std::memory_order_relaxed);
   this->NextSimplex.store(static_cast<SimplexId>(simplices.size()), std::memory_order_relaxed);
 

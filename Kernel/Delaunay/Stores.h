@@ -90,9 +90,8 @@ struct SimplexState
   LabelId Label;            ///< label of the circumcentre; valid if Labelled
   bool Labelled;
   bool NearSurface; ///< its circumball may meet an interface
-  /** Whether an inspection has given it a label, and has nothing to mend around it. */
+  /** Whether an inspection has given it a label (Triangulation::Labels()), and has nothing to mend around it. */
   bool Examined;
-  LabelId Given; ///< this label; if not Examined, that of the last inspection before its repairs
 
   /** A thread may call this even if it owns no vertex of the simplex. */
   std::uint32_t CurrentGeneration() const

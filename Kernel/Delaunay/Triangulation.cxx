@@ -27,7 +27,7 @@ Triangulation<D>::Triangulation(const Box<D>& box)
   : Domain(box)
   , Vertices(Vertex{ {}, None, 0, 0, VertexKind::Box, false, false })
   , Marks(SimplexMark::Unused)
-  , States(SimplexState{ 0, 0, false, false, false, 0 })
+  , States(SimplexState{ 0, 0, false, false, false })
 {
   this->BuildCorners();
 }

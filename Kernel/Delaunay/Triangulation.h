@@ -7,6 +7,7 @@
 #ifndef voxplex_Triangulation_h
 #define voxplex_Triangulation_h
 
+#include "Base/UninitialisedVector.h"
 #include "Delaunay/Outcomes.h"
 #include "Delaunay/RidgeTable.h"
 #include "Delaunay/Stack.h"
@@ -347,6 +348,13 @@ public:
     return s;
   }
 
+  /**
+   * The label of each simplex in the mesh, by id: the state of ManifoldLabeller. Renumber() carries it.
+   * Empty before the first inspection, and after Join().
+   */
+  UninitialisedVector<LabelId>& Labels() { return this->MeshLabels; }
+  const UninitialisedVector<LabelId>& Labels() const { return this->MeshLabels; }
+
   /** All simplex ids are below this one. Test each with IsAlive(). */
   SimplexId SimplexIdEnd() const { return this->NextSimplex.load(std::memory_order_relaxed); }
   /** All vertex ids are below this one. Test each with GetVertex(v).Alive. */
@@ -421,6 +429,7 @@ private:
   ChunkedArray<Simplex> Simplices;
   ChunkedArray<SimplexMark, 16> Marks; ///< separate, since every step of a cavity search reads one
   ChunkedArray<SimplexState> States;
+  UninitialisedVector<LabelId> MeshLabels;
   std::atomic<std::uint32_t> NextVertex{ 0 };
   std::atomic<std::uint32_t> NextSimplex{ 0 };
 };

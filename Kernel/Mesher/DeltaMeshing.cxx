@@ -135,7 +135,7 @@ bool RefineAndInspect(const RunEnvironment<D>& run, RunProgress& progress,
     progress.EndRefinement();
     if (!inspection.Inspect())
     {
-      const SimplexLabels& labels = inspection.Labels().Labels;
+      const SimplexLabels& labels = stage->Mesh().Labels();
       if (wants(static_cast<std::uint64_t>(
             std::count_if(labels.begin(), labels.end(), [](LabelId label) { return label != 0; }))))
       {

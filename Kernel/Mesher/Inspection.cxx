@@ -130,7 +130,6 @@ bool Inspection<D>::Inspect()
   StageTimes& times = this->Run.Statistics.Times;
   {
     const Stopwatch time;
-    this->Made = {}; // the labels of the round before need no memory beside the new ones
     this->Made = this->Labeller.Take();
     const bool isNeeded = this->Interfaces.InspectSampled(this->Made);
     if (!isNeeded && this->Run.Options.Interfaces.Manifold)
@@ -145,7 +144,7 @@ bool Inspection<D>::Inspect()
     }
   }
   bool isNeeded = false;
-  const LabelledTriangulation<D> elements(this->Source, this->Made.Labels);
+  const LabelledTriangulation<D> elements(this->Source, this->Source.Labels());
   if (this->Components)
   {
     this->Look(isNeeded, LostComponents, times.Components,

@@ -197,7 +197,7 @@ InspectedMesh<D> TakeMesh(
   const Stopwatch time;
   stage.Finish();
   UninitialisedVector<std::uint32_t> numbers;
-  InspectedMesh<D> mesh{ Complex<D>(stage.Mesh(), labels.Labels, stage.Twins(), numbers,
+  InspectedMesh<D> mesh{ Complex<D>(stage.Mesh(), stage.Mesh().Labels(), stage.Twins(), numbers,
                            run.Options.Team.Threads, run.Stop),
     labels.NonManifold };
   for (InterfaceRidge<D>& ridge : mesh.NonManifold)

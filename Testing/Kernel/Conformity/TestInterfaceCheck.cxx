@@ -80,8 +80,9 @@ TEST(InterfaceCheck, GoesOnWhereItHasTo)
         ExtractMesh<3>(context.Mesh, domain, labels, mesh);
         return mesh;
       };
-      const bool wasFar = HasFarFaces(image, extract(labeller.Take().Labels), delta);
-      const ManifoldLabels<3> made = checks::LabelsOf(labeller, figures);
+      labeller.Take();
+      const bool wasFar = HasFarFaces(image, extract(labeller.GetLabels()), delta);
+      const checks::RepairedLabels<3> made = checks::LabelsOf(labeller, figures);
       const bool hasPinches = !made.NonManifold.empty();
       const bool isFar = HasFarFaces(image, extract(made.Labels), delta);
       bool isNeeded = false;

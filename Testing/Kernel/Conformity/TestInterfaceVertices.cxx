@@ -77,7 +77,7 @@ public:
   void Update()
   {
     InterfaceStatistics figures;
-    const ManifoldLabels<3> made = checks::LabelsOf(this->Labeller, figures);
+    const checks::RepairedLabels<3> made = checks::LabelsOf(this->Labeller, figures);
     const std::set<Point<3>> now = MarkedVertices(this->Mesh);
     EXPECT_EQ(now, VerticesOfFacets(this->Mesh, this->Image, made.Labels));
     this->Added += Difference(now, this->Before).size();

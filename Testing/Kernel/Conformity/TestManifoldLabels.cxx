@@ -50,7 +50,7 @@ void ExpectSameRidges(
 }
 
 template <int D>
-void ExpectSame(const ManifoldLabels<D>& again, const ManifoldLabels<D>& expected)
+void ExpectSame(const checks::RepairedLabels<D>& again, const checks::RepairedLabels<D>& expected)
 {
   EXPECT_EQ(again.Labels, expected.Labels);
   EXPECT_EQ(again.Places.size(), expected.Places.size());
@@ -158,7 +158,7 @@ std::size_t CheckRounds(std::array<Triangulation<D>*, 2> meshes, const Domain<D>
   ManifoldLabeller<D> three(*meshes[1], OptionsFor(domain), 3, {});
   std::vector<Point<D>> places; // of simplices with another label
   std::array<InterfaceStatistics, 2> figures;
-  ManifoldLabels<D> made;
+  checks::RepairedLabels<D> made;
   for (const std::size_t number : insertions)
   {
     SCOPED_TRACE(number);
@@ -193,7 +193,7 @@ std::size_t CheckRounds(std::array<Triangulation<D>*, 2> meshes, const Domain<D>
   if (made.NonManifold.empty())
   {
     meshes[0]->Renumber(2);
-    const ManifoldLabels<D> again = checks::LabelsOf(one, figures[0]);
+    const checks::RepairedLabels<D> again = checks::LabelsOf(one, figures[0]);
     EXPECT_EQ(CountLabels(again.Labels), CountLabels(made.Labels));
     EXPECT_EQ(figures[0].NonManifoldRepaired, repaired);
   }

@@ -246,7 +246,8 @@ TEST(SpaceTimeManifoldLabels, GiveFewerBadTriangles)
     options.Surfaces = &domain;
     InterfaceStatistics figures;
     ManifoldLabeller<4> labeller(refined.Mesh(), options, 1, {});
-    const SimplexLabels plain = labeller.Take().Labels;
+    labeller.Take();
+    const SimplexLabels plain = labeller.GetLabels();
     const auto repaired = checks::LabelsOf(labeller, figures);
     EXPECT_EQ(plain, refined.Object);
     EXPECT_NE(repaired.Labels, plain);

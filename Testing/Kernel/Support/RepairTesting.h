@@ -37,11 +37,20 @@ Repaired<D> RepairAll(Triangulation<D>& triangulation, std::span<LabelId> labels
   return result;
 }
 
+/** What a repair says, and the labels after it. */
+template <int D>
+struct RepairedLabels : ManifoldLabels<D>
+{
+  SimplexLabels Labels;
+};
+
 /** The labels after a repair that tells all gaps. */
 template <int D>
-ManifoldLabels<D> LabelsOf(ManifoldLabeller<D>& labeller, InterfaceStatistics& figures)
+RepairedLabels<D> LabelsOf(ManifoldLabeller<D>& labeller, InterfaceStatistics& figures)
 {
-  return labeller.Repair(labeller.Take(), {}, figures);
+  RepairedLabels<D> made{ labeller.Repair(labeller.Take(), {}, figures), {} };
+  made.Labels = labeller.GetLabels();
+  return made;
 }
 
 } // namespace voxplex::checks
