@@ -3,6 +3,7 @@
 #include "Conformity/InterfaceVertices.h"
 
 #include "Delaunay/VertexStar.h"
+#include "Mesh/InterfaceFacets.h"
 #include "Parallel/ParallelFor.h"
 
 #include <cstddef>
@@ -38,18 +39,17 @@ void MarkInterfaceVertices(Triangulation<D>& triangulation, std::span<const Labe
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
-        if (labels[s] == 0)
+        if (labels[s] != 0)
         {
-          continue; // every such facet has a label on one side
-        }
-        const auto& simplex = triangulation.GetSimplex(s);
-        for (unsigned i = 0; i <= D; ++i)
-        {
-          const SimplexId n = simplex.N[i];
-          for (unsigned m = 1; m <= D && n != None && labels[n] < labels[s]; ++m)
-          {
-            triangulation.SetOnInterface(simplex.V[(i + m) % (D + 1)], true);
-          }
+          const auto& simplex = triangulation.GetSimplex(s);
+          ForEachInterface(simplex.N, labels[s], labels, BeyondEnd::Nothing,
+            [&](unsigned i, LabelId)
+            {
+              for (const VertexId v : OutwardFacet(simplex.V, i))
+              {
+                triangulation.SetOnInterface(v, true);
+              }
+            });
         }
       }
     },

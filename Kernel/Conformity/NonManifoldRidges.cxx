@@ -5,7 +5,7 @@
 #include "Base/UninitialisedVector.h"
 #include "Conformity/ChangeRules.h"
 #include "Conformity/RepairNeighbourhood.h"
-#include "Parallel/ChunkCounts.h"
+#include "Mesh/InterfaceFacets.h"
 #include "Parallel/ParallelCollect.h"
 
 #include <algorithm>
@@ -74,53 +74,21 @@ template <int D>
 InterfaceFacets<D> FindInterfaceFacets(const Triangulation<D>& triangulation,
   std::span<const LabelId> labels, unsigned threads, const std::stop_token& stop)
 {
-  /** Calls visit(simplex, number of the facet, label beside) for the facets of a chunk. */
-  const auto forEachOf = [&](std::size_t first, std::size_t last, auto&& visit)
-  {
-    for (auto s = static_cast<SimplexId>(first); s < last; ++s)
-    {
-      if (labels[s] == 0)
-      {
-        continue;
-      }
-      const auto& simplex = triangulation.GetSimplex(s);
-      for (unsigned i = 0; i <= D; ++i)
-      {
-        const LabelId beside = simplex.N[i] == None ? LabelId{ 0 } : labels[simplex.N[i]];
-        if (beside < labels[s])
-        {
-          visit(s, i, beside);
-        }
-      }
-    }
-  };
-  const auto forChunks = [&](auto&& function)
-  { ParallelFor(0, labels.size(), ChunkCounts::Grain, threads, function, stop); };
-  ChunkCounts places(labels.size());
-  forChunks(
-    [&](std::size_t first, std::size_t last)
-    {
-      std::size_t number = 0;
-      forEachOf(first, last, [&](SimplexId, unsigned, LabelId) { ++number; });
-      places.OfChunk(first) = number;
-    });
-  const std::size_t number = places.TurnIntoPlaces();
   InterfaceFacets<D> all;
-  all.Facets.resize(number);
-  all.Labels.resize(number);
-  forChunks(
-    [&](std::size_t first, std::size_t last)
+  ListInterfaces(
+    labels, [&](SimplexId s) -> const auto& { return triangulation.GetSimplex(s).N; },
+    BeyondEnd::Background,
+    [&](std::size_t number)
     {
-      std::size_t place = places.OfChunk(first);
-      forEachOf(first, last,
-        [&](SimplexId s, unsigned i, LabelId beside)
-        {
-          const auto& simplex = triangulation.GetSimplex(s);
-          all.Facets[place] = repair::FacetOf<D>(simplex.V, i);
-          all.Labels[place] = { labels[s], beside };
-          ++place;
-        });
-    });
+      all.Facets.resize(number);
+      all.Labels.resize(number);
+    },
+    [&](std::size_t place, SimplexId s, unsigned i, LabelId beside)
+    {
+      all.Facets[place] = OutwardFacet(triangulation.GetSimplex(s).V, i);
+      all.Labels[place] = { labels[s], beside };
+    },
+    threads, stop);
   return all;
 }
 

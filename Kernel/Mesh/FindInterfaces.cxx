@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/FindInterfaces.h"
 
+#include "Mesh/InterfaceFacets.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/ParallelSort.h"
 
@@ -20,31 +21,6 @@ namespace
 {
 
 constexpr std::size_t Grain = 4096;
-
-/**
- * The vertices of the face opposite to vertex i: ascending, and the last two exchanged if i is odd.
- * In 3D this is counter-clockwise as seen from outside.
- */
-template <int D>
-constexpr std::array<std::array<std::size_t, D>, D + 1> FindFaceVertices()
-{
-  std::array<std::array<std::size_t, D>, D + 1> vertices{};
-  for (std::size_t i = 0; i <= D; ++i)
-  {
-    for (std::size_t k = 0; k < D; ++k)
-    {
-      vertices[i][k] = k + (k < i ? 0 : 1);
-    }
-    if (i % 2 == 1)
-    {
-      std::swap(vertices[i][D - 2], vertices[i][D - 1]);
-    }
-  }
-  return vertices;
-}
-
-template <int D>
-constexpr std::array<std::array<std::size_t, D>, D + 1> FaceVertices = FindFaceVertices<D>();
 
 /** A face of a simplex: its points in increasing order, and where it comes from. */
 template <int D>
@@ -73,10 +49,7 @@ std::vector<Face<D>> ListFaces(
         for (std::size_t i = 0; i <= D; ++i)
         {
           Face<D>& face = faces[(D + 1) * s + i];
-          for (std::size_t k = 0; k < D; ++k)
-          {
-            face.Points[k] = mesh.Simplices[s][FaceVertices<D>[i][k]];
-          }
+          face.Points = OutwardFacet(mesh.Simplices[s], static_cast<unsigned>(i));
           std::sort(face.Points.begin(), face.Points.end());
           face.Source = static_cast<std::uint32_t>((D + 1) * s + i);
         }
@@ -140,13 +113,7 @@ std::uint64_t FindInterfaces(SimplexMesh<D>& mesh, unsigned threads, const std::
   mesh.FacetLabels.clear();
   const auto add = [&mesh](std::uint32_t source, std::int64_t other)
   {
-    const auto& simplex = mesh.Simplices[source / (D + 1)];
-    const auto& face = FaceVertices<D>[source % (D + 1)];
-    auto& facet = mesh.Facets.emplace_back();
-    for (std::size_t k = 0; k < D; ++k)
-    {
-      facet[k] = simplex[face[k]];
-    }
+    mesh.Facets.push_back(OutwardFacet(mesh.Simplices[source / (D + 1)], source % (D + 1)));
     mesh.FacetLabels.push_back({ mesh.Labels[source / (D + 1)], other });
   };
   std::uint64_t shared = 0;

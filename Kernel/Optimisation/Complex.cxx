@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optimisation/Complex.h"
 
+#include "Mesh/InterfaceFacets.h"
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
 
@@ -412,19 +413,14 @@ void Complex<D>::FindKinds(unsigned threads, const std::stop_token& stop)
     {
       for (std::size_t t = first; t < end; ++t)
       {
-        for (unsigned i = 0; i < Corners; ++i)
-        {
-          const Label beside = this->LabelOf(this->Cells[t].N[i]);
-          if (this->Labels[t] <= beside) // no interface, or counted from the other side
+        ForEachInterface(this->Cells[t].N, this->Labels[t], this->Labels, BeyondEnd::Background,
+          [&](unsigned i, LabelId beside)
           {
-            continue;
-          }
-          for (unsigned k = 1; k < Corners; ++k)
-          {
-            note(this->Cells[t].V[(i + k) % Corners],
-              (std::uint64_t{ this->Labels[t] } << 32) | beside);
-          }
-        }
+            for (const std::uint32_t v : OutwardFacet(this->Cells[t].V, i))
+            {
+              note(v, (std::uint64_t{ this->Labels[t] } << 32) | beside);
+            }
+          });
       }
     },
     stop);
@@ -484,77 +480,39 @@ void Complex<D>::FindBorderFaces(const Domain<D>& domain)
 }
 
 //------------------------------------------------------------------------------------------------
-/** The vertices of each facet of a positively oriented simplex. In 3D the normal points outwards. */
-template <int D>
-constexpr std::array<std::array<unsigned, D>, D + 1> OutwardCorners()
-{
-  std::array<std::array<unsigned, D>, D + 1> corners{};
-  for (unsigned i = 0; i <= D; ++i)
-  {
-    for (unsigned m = 0; m < D; ++m)
-    {
-      corners[i][m] = m + (m < i ? 0 : 1);
-    }
-    if (i % 2 == 1)
-    {
-      std::swap(corners[i][0], corners[i][1]);
-    }
-  }
-  return corners;
-}
-
 template <int D>
 void Complex<D>::Write(std::span<const std::int64_t> values, SimplexMesh<D>& mesh, unsigned threads,
   const std::stop_token& stop)
 {
-  static constexpr auto outward = OutwardCorners<D>();
   mesh = SimplexMesh<D>();
   this->Compact(false, threads, stop);
-  const auto forChunks = [&](const auto& function)
-  { ParallelFor(0, this->Cells.size(), ChunkCounts::Grain, threads, function, stop); };
-  const auto isInterface = [this](std::size_t t, unsigned i)
-  { return this->LabelOf(this->Cells[t].N[i]) < this->Labels[t]; };
-  ChunkCounts facets(this->Cells.size());
   mesh.Simplices.resize(this->Cells.size());
   mesh.Labels.resize(this->Cells.size());
-  forChunks(
+  ParallelFor(
+    0, this->Cells.size(), Grain, threads,
     [&](std::size_t first, std::size_t end)
     {
-      std::size_t interfaces = 0; // counts of several chunks share a cache line
       for (std::size_t t = first; t < end; ++t)
       {
         mesh.Simplices[t] = this->Cells[t].V;
         mesh.Labels[t] = values[this->Labels[t]];
-        for (unsigned i = 0; i < Corners; ++i)
-        {
-          interfaces += isInterface(t, i) ? 1 : 0;
-        }
       }
-      facets.OfChunk(first) = interfaces;
-    });
-  mesh.Facets.resize(facets.TurnIntoPlaces());
-  mesh.FacetLabels.resize(mesh.Facets.size());
-  forChunks(
-    [&](std::size_t first, std::size_t end)
+    },
+    stop);
+  ListInterfaces(
+    this->Labels, [this](std::uint32_t t) -> const auto& { return this->Cells[t].N; },
+    BeyondEnd::Background,
+    [&](std::size_t number)
     {
-      std::size_t facet = facets.OfChunk(first);
-      for (std::size_t t = first; t < end; ++t)
-      {
-        for (unsigned i = 0; i < Corners; ++i)
-        {
-          if (isInterface(t, i))
-          {
-            for (unsigned m = 0; m < D; ++m)
-            {
-              mesh.Facets[facet][m] = this->Cells[t].V[outward[i][m]];
-            }
-            mesh.FacetLabels[facet] = { mesh.Labels[t],
-              values[this->LabelOf(this->Cells[t].N[i])] };
-            ++facet;
-          }
-        }
-      }
-    });
+      mesh.Facets.resize(number);
+      mesh.FacetLabels.resize(number);
+    },
+    [&](std::size_t place, std::uint32_t t, unsigned i, LabelId beside)
+    {
+      mesh.Facets[place] = OutwardFacet(this->Cells[t].V, i);
+      mesh.FacetLabels[place] = { mesh.Labels[t], values[beside] };
+    },
+    threads, stop);
   for (std::uint32_t v = 0; v < this->Twins.size(); ++v)
   {
     const std::uint32_t twin = this->Twins[v];

@@ -3,6 +3,7 @@
 #include "Optimisation/InterfaceFit.h"
 
 #include "Geometry/SimplexQuality.h"
+#include "Mesh/InterfaceFacets.h"
 #include "Optimisation/FitShapes.h"
 #include "Optimisation/InterfaceOffsets.h"
 #include "Optimisation/MoveLimits.h"
@@ -145,60 +146,20 @@ private:
     return std::min(v, this->Mesh.TwinOf(v)); // None is the largest number
   }
 
-  /** Calls function(s, i) for facet i of each cell s where the label beyond is smaller. */
-  template <typename Function>
-  void ForFacetsIn(std::size_t first, std::size_t last, Function&& function) const
-  {
-    for (auto s = static_cast<std::uint32_t>(first); s < last; ++s)
-    {
-      const auto& neighbours = this->Mesh.Cells[s].N;
-      for (unsigned i = 0; i <= static_cast<unsigned>(D); ++i)
-      {
-        // A facet without a neighbour lies on the box, on a flat end.
-        if (neighbours[i] != None && this->Mesh.Labels[neighbours[i]] < this->Mesh.Labels[s])
-        {
-          function(s, i);
-        }
-      }
-    }
-  }
-
+  /** A facet beyond which there is nothing lies on the box, on a flat end. */
   void FindFacets()
   {
-    ChunkCounts counts(this->Mesh.Cells.size());
-    this->ForChunks(this->Mesh.Cells.size(),
-      [&](std::size_t first, std::size_t last)
+    ListInterfaces(
+      this->Mesh.Labels, [this](std::uint32_t s) -> const auto& { return this->Mesh.Cells[s].N; },
+      BeyondEnd::Nothing, [this](std::size_t number) { this->Facets.resize(number); },
+      [this](std::size_t place, std::uint32_t s, unsigned i, LabelId beside)
       {
-        std::size_t n = 0;
-        this->ForFacetsIn(first, last, [&n](std::uint32_t, unsigned) { ++n; });
-        counts.OfChunk(first) = n;
-      });
-    this->Facets.resize(counts.TurnIntoPlaces());
-    this->ForChunks(this->Mesh.Cells.size(),
-      [&](std::size_t first, std::size_t last)
-      {
-        std::size_t f = counts.OfChunk(first);
-        this->ForFacetsIn(first, last,
-          [&](std::uint32_t s, unsigned i)
-          {
-            const auto& simplex = this->Mesh.Cells[s];
-            Facet& facet = this->Facets[f++];
-            unsigned m = 0;
-            for (unsigned k = 0; k <= static_cast<unsigned>(D); ++k)
-            {
-              if (k != i)
-              {
-                facet.V[m++] = simplex.V[k];
-              }
-            }
-            if (i % 2 == 1)
-            {
-              std::swap(facet.V[0], facet.V[1]);
-            }
-            facet.Inner = this->Mesh.Labels[s];
-            facet.Outer = this->Mesh.Labels[simplex.N[i]];
-          });
-      });
+        Facet& facet = this->Facets[place];
+        facet.V = OutwardFacet(this->Mesh.Cells[s].V, i);
+        facet.Inner = this->Mesh.Labels[s];
+        facet.Outer = beside;
+      },
+      this->Threads, this->Stop);
   }
 
   /** Lists the vertices of facets, and the facets of each vertex. */
