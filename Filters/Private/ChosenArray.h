@@ -7,9 +7,9 @@
 #ifndef voxplex_ChosenArray_h
 #define voxplex_ChosenArray_h
 
-#include "Image/FrameSeries.h"
 #include "Image/ImageFrame.h"
 #include "Image/LabelImage.h"
+#include "Image/Series/FrameSeries.h"
 
 #include "vtkDataArray.h"
 #include "vtkSmartPointer.h"

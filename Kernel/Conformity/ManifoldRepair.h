@@ -71,7 +71,7 @@ struct ManifoldRepairResult
  * - they are not larger than their new label allows;
  * - none with a facet on the hull of the triangulation, such as a flat end in time, is dropped.
  *
- * A tetrahedron with a facet on a face where the image cuts the object is dropped only if nothing
+ * A tetrahedron with a facet on a cut face is dropped only if nothing
  * else helps, because that leaves a dent in the face. There, parts of the object meet at an edge,
  * and the dent is at the rim of the face.
  *

@@ -13,7 +13,8 @@ namespace voxplex
 {
 
 /**
- * @brief The planes on which the object ends flat. Beyond them is background only.
+ * @brief The planes on which the object ends flat. Beyond them is background only. The flat parts of the
+ * object's boundary that lie on them are its *cut faces*: there the image cuts the object.
  *
  * A set of planes is a number: bit 2 a + end stands for the plane at the lower (0) or upper (1) end
  * of axis a. All methods are const and safe to call from any number of threads.

@@ -92,10 +92,10 @@ public:
   LabelField(LabelField&&) noexcept = default;
   LabelField& operator=(LabelField&&) noexcept = default;
 
-  /** LabelAt(), but labels continue beyond the faces where the image cuts the object. */
+  /** LabelAt(), but labels continue beyond the cut faces. */
   LabelId ExtendedLabelAt(const Point<D>& x) const;
   /**
-   * MarginAt(), but labels continue beyond the faces where the image cuts the object. The margin is
+   * MarginAt(), but labels continue beyond the cut faces. The margin is
    * u_label(x) minus the maximum of u_l(x) over the other labels, from about -2 to about +2. It is
    * continuous in a mixed tile and across the faces of mixed tiles. In a uniform tile it is +2 or
    * -2.

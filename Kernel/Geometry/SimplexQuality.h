@@ -223,6 +223,18 @@ inline std::array<double, 3> PlanarAngles(const Point<3>& a, const Point<3>& b, 
     std::atan2(twiceArea, Dot(ac, bc)) * DegreesPerRadian };
 }
 
+/** Cosine of the smallest angle of a triangle. */
+inline double CosineOfSmallestAngle(const Point<3>& a, const Point<3>& b, const Point<3>& c)
+{
+  const double ab = Distance2(a, b);
+  const double bc = Distance2(b, c);
+  const double ca = Distance2(c, a);
+  // The smallest angle is opposite to the shortest edge.
+  const double shortest = std::min({ ab, bc, ca });
+  const double product = shortest == ab ? bc * ca : shortest == bc ? ab * ca : ab * bc;
+  return (ab + bc + ca - 2.0 * shortest) / (2.0 * std::sqrt(product));
+}
+
 } // namespace voxplex
 
 #endif

@@ -3,7 +3,7 @@
 /**
  * @file JunctionCurves.h
  * @brief The curves where three labels meet, and the corners where four labels meet. Also the edges
- * of the faces where the image cuts the object.
+ * of the cut faces.
  */
 #ifndef voxplex_JunctionCurves_h
 #define voxplex_JunctionCurves_h

@@ -34,8 +34,8 @@ namespace voxplex
  * 5. components whose simplices do not hold together (JoinPieces);
  * 6. if nothing was found, far faces among all.
  *
- * Refinement goes on for what steps 2 to 5 find together. One that needed nothing the last time is
- * left out if another needs something already. Each gives up after a limited number of rounds, so the
+ * Refinement goes on for what steps 2 to 5 find together. A check that requested nothing in the
+ * previous round is skipped once another check has requested refinement. Each gives up after a limited number of rounds, so the
  * run ends.
  *
  * Components may lower local bounds already in the constructor. Not thread safe.

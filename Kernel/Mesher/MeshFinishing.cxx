@@ -4,11 +4,11 @@
 
 #include "Base/Stopwatch.h"
 #include "Conformity/MeshTopology.h"
-#include "Optimisation/InterfaceFit.h"
-#include "Optimisation/MeshOptimiser.h"
+#include "Optimisation/ComponentGuard.h"
+#include "Optimisation/Fit/InterfaceFit.h"
 #include "Optimisation/OpenRidges.h"
-#include "Optimisation/PentatopeOptimiser.h"
-#include "Quality/ComponentGuard.h"
+#include "Optimisation/Pentatopes/PentatopeOptimiser.h"
+#include "Optimisation/Tetrahedra/MeshOptimiser.h"
 #include "Quality/LostComponents.h"
 
 #include <algorithm>

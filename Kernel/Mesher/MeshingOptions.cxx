@@ -5,7 +5,7 @@
 #include "Base/Error.h"
 #include "Base/NumberText.h"
 #include "Geometry/Predicates.h"
-#include "Image/FrameInterpolation.h"
+#include "Image/Series/FrameInterpolation.h"
 
 #include <cmath>
 #include <string>

@@ -50,7 +50,7 @@ struct SamplingOptions
   double Gradation = DefaultGradation;
 };
 
-/** Optimisation after refinement (Optimisation/MeshOptimiser.h, PentatopeOptimiser.h). */
+/** Optimisation after refinement (Optimisation/Tetrahedra/MeshOptimiser.h, PentatopeOptimiser.h). */
 struct OptimisationStageOptions
 {
   /**
@@ -130,7 +130,7 @@ struct MeshingOptions
   LimitOptions Limits;
   bool MeasureQuality = false; ///< of the finished mesh, for MeshingStatistics::Quality
 
-  bool LooksAfterComponents() const { return this->Components.Smallest > 0; }
+  bool KeepsComponents() const { return this->Components.Smallest > 0; }
 };
 
 /** The largest radius-edge ratio that optimisation allows in 3D. */

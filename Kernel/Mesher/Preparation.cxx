@@ -7,8 +7,8 @@
 #include "Base/Stopwatch.h"
 #include "Domain/ImageDomain.h"
 #include "Image/DropComponents.h"
-#include "Image/FrameInterpolation.h"
 #include "Image/GreyValues.h"
+#include "Image/Series/FrameInterpolation.h"
 #include "Parallel/ParallelFor.h"
 #include "Sizing/GradedSize.h"
 
@@ -205,7 +205,7 @@ PreparedImage<D> Prepare(LabelImage<D>& image, const IsosurfaceImage<D>* isosurf
   }
   statistics.Times.LabelField += seconds;
   prepared.Planes = FindPlanes(options, image, *prepared.Surfaces);
-  if (options.LooksAfterComponents())
+  if (options.KeepsComponents())
   {
     const Stopwatch time;
     prepared.AllComponents.emplace(image, options.Team.Threads, stop);

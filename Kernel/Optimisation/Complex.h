@@ -12,9 +12,9 @@
 #include "Domain/Domain.h"
 #include "Mesh/LabelledCells.h"
 #include "Mesh/SimplexMesh.h"
+#include "Optimisation/ComponentGuard.h"
 #include "Optimisation/PentatopeShape.h"
 #include "Optimisation/ShapeScore.h"
-#include "Quality/ComponentGuard.h"
 
 #include <algorithm>
 #include <array>
@@ -35,7 +35,7 @@ enum class VertexRole : std::uint8_t
 {
   Free,    ///< all cells around it have one label
   Surface, ///< on an interface of two labels; one of them may be background
-  Crease,  ///< as Surface, but on an edge of a face where the image cuts the object
+  Crease,  ///< as Surface, but on an edge of a cut face
   Fixed    ///< where three or more labels meet
 };
 
@@ -166,7 +166,7 @@ public:
   void FindKinds(unsigned threads = 1, const std::stop_token& stop = {});
 
   /**
-   * Finds the vertices on faces where the image cuts the object. After FindKinds(), if the complex has no
+   * Finds the vertices on cut faces. After FindKinds(), if the complex has no
    * cells around the object.
    */
   void FindBorderFaces(const Domain<D>& domain);
@@ -283,7 +283,7 @@ public:
   /**
    * By vertex. Changes of connectivity need not update the kinds. If Flips brings an interface
    * triangle to a vertex, the vertex already has one between the same two labels, and on the same
-   * faces where the image cuts the object. So a vertex can only become freer than its kind; then it
+   * cut faces. So a vertex can only become freer than its kind; then it
    * keeps its kind.
    */
   std::vector<VertexRole> Kinds;

@@ -21,9 +21,8 @@ namespace voxplex
 {
 
 /**
- * Limits from the image: a part of a voxel along each axis, about the image's box, and within the
- * faces where the image cuts the object (3D), flat ends and time planes (4D). The image, the domain
- * and the planes must outlive this.
+ * Limits from the image: a part of a voxel along each axis, about the image's box, and within the cut
+ * faces (3D), flat ends and time planes (4D). The image, the domain and the planes must outlive this.
  */
 template <int D>
 class MoveLimits

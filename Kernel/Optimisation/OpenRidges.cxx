@@ -612,7 +612,7 @@ private:
   }
 
   /**
-   * Whether a filling makes a dent in a face where the image cuts the object, on the hull of the
+   * Whether a filling makes a dent in a cut face, on the hull of the
    * triangulation for example, or adds a piece beyond the image's border.
    */
   bool DentsBorder(const Ring<D>& ring, const Filling& filling) const
@@ -642,7 +642,7 @@ private:
     return false;
   }
 
-  /** Whether a facet at the ridge is on a face where the image cuts the object. */
+  /** Whether a facet at the ridge is on a cut face. */
   bool HasFacetOnBorder(
     const ImageBorder<D>& border, const Ring<D>& ring, const Sector<D>& sector) const
   {

@@ -68,8 +68,8 @@ struct OpeningContext
  * Each simplex keeps pieces with its own label, so no element is lost. It is cut at most once for each
  * of its ridges. New vertices lie at one of a few fixed positions in their facet or
  * simplex, so the shapes of the simplices bound the shapes of the pieces. Of all possible cuts, the
- * one with the best shapes in the mesh is taken. A cut that makes dents or bulges in faces where the
- * image cuts the object is taken only if there is no other; so is one that makes labels touch, or
+ * one with the best shapes in the mesh is taken. A cut that makes dents or bulges in cut faces is taken
+ * only if there is no other; so is one that makes labels touch, or
  * connects parts of one, where the image does not (OpeningContext::Contacts).
  *
  * Takes time linear in the number of ridges, if few simplices share one. Ridges with many runs around

@@ -75,7 +75,7 @@ public:
   }
 
   /**
-   * Lowers GradedAt() alone: vertices there are this close to each other, but no rule asks for it.
+   * Records the spacing of vertices there for GradedAt(); does not constrain the rules.
    */
   void SetSpacing(const Index& first, std::int64_t length, double spacing)
   {

@@ -9,8 +9,8 @@
  * facet, radius-edge, size, sliver; removal follows an insertion. In 3D:
  *
  * - Facet: the dual edge of a facet f meets dOmega at z, and an angle of f is below the bound or a
- *   vertex of f is not a feature vertex: insert z. Or z lies on a face where the image cuts the
- *   object, and a vertex of f does not: insert z or a point nearby on an edge of that face, unless
+ *   vertex of f is not a feature vertex: insert z. Or z lies on a cut face, and a vertex of f does not:
+ *   insert z or a point nearby on an edge of that face, unless
  *   a feature vertex is nearer than CutClearance Delta(z). A z of the first kind that is nearer to
  *   such a face than this is moved to an edge of the face nearby.
  * - Sliver: c(t) is inside the object, a dihedral angle of t is below the bound or above 180
@@ -76,7 +76,7 @@ private:
   static constexpr double SliverSpacing = 0.25;
   /**
    * Points that the facet rule inserts to make facets flat keep this distance from feature
-   * vertices, times Delta. Its other points keep it from faces where the image cuts the object, if
+   * vertices, times Delta. Its other points keep it from cut faces, if
    * they can.
    */
   static constexpr double CutClearance = 0.25;

@@ -3,7 +3,7 @@
 // Frames between frames: what they keep, volumes, motion, several labels, objects that appear.
 #include "Base/Error.h"
 #include "Base/GridIndex.h"
-#include "Image/FrameInterpolation.h"
+#include "Image/Series/FrameInterpolation.h"
 #include "SpaceTimeCases.h"
 
 #include <gtest/gtest.h>

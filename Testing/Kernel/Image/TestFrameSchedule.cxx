@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Equally spaced frames for any times: which frames are kept, steps, ends, limits; images with such frames.
 #include "Base/Error.h"
-#include "Image/FrameInterpolation.h"
-#include "Image/FrameSchedule.h"
+#include "Image/Series/FrameInterpolation.h"
+#include "Image/Series/FrameSchedule.h"
 #include "SpaceTimeCases.h"
 
 #include <gtest/gtest.h>

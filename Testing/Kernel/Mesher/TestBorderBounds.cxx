@@ -5,7 +5,7 @@
 #include "Domain/ImageDomain.h"
 #include "MeshChecks.h"
 #include "MeshRuns.h"
-#include "Optimisation/MeshOptimiser.h"
+#include "Optimisation/Tetrahedra/MeshOptimiser.h"
 #include "Phantoms.h"
 #include "Sanitizers.h"
 

@@ -8,7 +8,7 @@
 #include "Image/IsosurfaceImage.h"
 #include "MeshChecks.h"
 #include "MeshRuns.h"
-#include "Optimisation/MeshOptimiser.h"
+#include "Optimisation/Tetrahedra/MeshOptimiser.h"
 #include "Phantoms.h"
 #include "RefinementChecks.h"
 #include "RepairTesting.h"

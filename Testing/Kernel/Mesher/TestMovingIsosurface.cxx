@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Grey-value series: a moving ball whose values are signed distances, against the true ball.
-#include "Image/FrameInterpolation.h"
+#include "Image/Series/FrameInterpolation.h"
 #include "Phantoms.h"
 #include "SpaceTimeCases.h"
 

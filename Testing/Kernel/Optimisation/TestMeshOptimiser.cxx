@@ -6,9 +6,9 @@
 #include "Domain/ImageDomain.h"
 #include "MeshChecks.h"
 #include "MeshRuns.h"
-#include "Optimisation/MeshOptimiser.h"
 #include "Optimisation/Patch.h"
-#include "Optimisation/Smoother.h"
+#include "Optimisation/Tetrahedra/MeshOptimiser.h"
+#include "Optimisation/Tetrahedra/Smoother.h"
 #include "Phantoms.h"
 #include "Quality/MeshQuality.h"
 

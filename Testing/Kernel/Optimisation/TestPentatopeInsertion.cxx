@@ -3,9 +3,9 @@
 // Vertices that are inserted in poor pentatopes make better ones, and lose nothing.
 #include "Geometry/SimplexQuality.h"
 #include "MeshChecks.h"
-#include "Optimisation/PentatopeFlips.h"
-#include "Optimisation/PentatopeInsertion.h"
-#include "Optimisation/PentatopeOptimiser.h"
+#include "Optimisation/Pentatopes/PentatopeFlips.h"
+#include "Optimisation/Pentatopes/PentatopeInsertion.h"
+#include "Optimisation/Pentatopes/PentatopeOptimiser.h"
 #include "PentatopeCases.h"
 #include "Sanitizers.h"
 

@@ -4,9 +4,9 @@
 #include "Base/Error.h"
 #include "Geometry/SimplexQuality.h"
 #include "MeshChecks.h"
-#include "Optimisation/PentatopeFlips.h"
-#include "Optimisation/PentatopeOptimiser.h"
-#include "Optimisation/PentatopeStar.h"
+#include "Optimisation/Pentatopes/PentatopeFlips.h"
+#include "Optimisation/Pentatopes/PentatopeOptimiser.h"
+#include "Optimisation/Pentatopes/PentatopeStar.h"
 #include "PentatopeCases.h"
 #include "Sanitizers.h"
 

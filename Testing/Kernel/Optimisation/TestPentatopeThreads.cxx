@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several threads optimise pentatopes, with the result of one.
 #include "MeshChecks.h"
-#include "Optimisation/PentatopeOptimiser.h"
+#include "Optimisation/Pentatopes/PentatopeOptimiser.h"
 #include "PentatopeCases.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ComplexOf.h"
-#include "Optimisation/Rooms.h"
+#include "Optimisation/Tetrahedra/Rooms.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Optimisation/VertexBoxes.h"
+#include "Optimisation/Tetrahedra/VertexBoxes.h"
 
 #include "Base/Error.h"
 

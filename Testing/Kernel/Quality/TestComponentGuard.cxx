@@ -5,10 +5,10 @@
 #include "Domain/ImageDomain.h"
 #include "MeshChecks.h"
 #include "MeshRuns.h"
-#include "Optimisation/MeshOptimiser.h"
+#include "Optimisation/ComponentGuard.h"
 #include "Optimisation/Patch.h"
+#include "Optimisation/Tetrahedra/MeshOptimiser.h"
 #include "Phantoms.h"
-#include "Quality/ComponentGuard.h"
 #include "Quality/LostComponents.h"
 
 #include <gtest/gtest.h>

@@ -8,8 +8,8 @@
 #include "Mesh/MeshElements.h"
 #include "Mesh/SimplexLabels.h"
 #include "Optimisation/Complex.h"
-#include "Optimisation/MeshOptimiser.h"
-#include "Optimisation/PentatopeOptimiser.h"
+#include "Optimisation/Pentatopes/PentatopeOptimiser.h"
+#include "Optimisation/Tetrahedra/MeshOptimiser.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include "ComplexOf.h"
 #include "Geometry/SimplexQuality.h"
 #include "Optimisation/Patch.h"
-#include "Optimisation/PentatopeRules.h"
+#include "Optimisation/Pentatopes/PentatopeRules.h"
 #include "SpaceTimeCases.h"
 
 #include <gtest/gtest.h>
