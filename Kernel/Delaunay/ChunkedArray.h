@@ -8,8 +8,8 @@
 #define voxplex_ChunkedArray_h
 
 #include "Base/PageMemory.h"
-#include "Parallel/ParallelFor.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -17,7 +17,6 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
-#include <span>
 #include <type_traits>
 
 namespace voxplex
@@ -102,26 +101,25 @@ public:
     }
   }
 
-  /**
-   * Element i becomes a copy of what element order[i] was. Elements beyond are as in a new array. No
-   * other thread may use the array meanwhile. Needs memory for both.
-   */
-  void Reorder(std::span<const std::uint32_t> order, unsigned threads)
+  /** Elements from `end` on become those of a new array. No other thread may use the array meanwhile. */
+  void Shrink(std::uint32_t end)
   {
-    ChunkedArray ordered;
-    ordered.Initial = this->Initial;
-    ordered.Initialise = this->Initialise;
-    ordered.Grow(static_cast<std::uint32_t>(order.size()));
-    ParallelFor(0, order.size(), ChunkSize, threads,
-      [&](std::size_t first, std::size_t last)
+    const std::uint32_t highest = this->HighestChunk.load(std::memory_order_relaxed);
+    for (std::uint32_t c = end >> ChunkBits; c <= highest; ++c)
+    {
+      T* const chunk = this->Chunks[c].load(std::memory_order_relaxed);
+      const std::uint32_t first = c == end >> ChunkBits ? end & (ChunkSize - 1) : 0;
+      if (chunk && first == 0)
       {
-        for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
-        {
-          ordered[i] = (*this)[order[i]];
-        }
-      });
-    this->Chunks.swap(ordered.Chunks);
-    ordered.HighestChunk = this->HighestChunk.exchange(ordered.HighestChunk);
+        FreePages(chunk, BytesOfChunk);
+        this->Chunks[c].store(nullptr, std::memory_order_relaxed);
+      }
+      else if (chunk && this->Initialise)
+      {
+        std::fill(chunk + first, chunk + ChunkSize, this->Initial);
+      }
+    }
+    this->HighestChunk.store(std::min(highest, end >> ChunkBits), std::memory_order_relaxed);
   }
 
   T& operator[](std::uint32_t i)

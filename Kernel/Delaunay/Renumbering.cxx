@@ -15,6 +15,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace voxplex
@@ -150,13 +153,73 @@ Numbers OrderSimplices(const Triangulation<D>& triangulation, const Numbers& new
   return order;
 }
 
-/** The new number of each old one that is in use. */
+/** The new number of each old one; None if it is not in use. */
 Numbers Inverse(const Numbers& order, std::uint32_t end, unsigned threads)
 {
   Numbers inverse(end);
+  ForAll(inverse.size(), threads, [&](std::size_t i) { inverse[i] = None; });
   ForAll(order.size(), threads,
     [&](std::size_t i) { inverse[order[i]] = static_cast<std::uint32_t>(i); });
   return inverse;
+}
+
+/**
+ * Moves element order[i] of some arrays to place i, within the arrays, block by block: what is in the way
+ * of a block moves to where the elements of the block have been. On average each element is once in the
+ * way.
+ * @param places the order; of no use afterwards
+ * @param targets its inverse; of no use afterwards
+ */
+template <typename... Arrays>
+void Permute(Numbers& places, Numbers& targets, unsigned threads, Arrays&... arrays)
+{
+  constexpr std::size_t ElementsOfBlock = std::size_t{ 1 } << 17;
+  const std::size_t most = std::min(places.size(), ElementsOfBlock);
+  std::tuple<std::vector<std::remove_reference_t<decltype(arrays[0])>>...> block{
+    std::vector<std::remove_reference_t<decltype(arrays[0])>>(most)...
+  };
+  Numbers from(most);
+  Numbers to(most);
+  const auto forArrays = [&](const auto& function)
+  { std::apply([&](auto&... parts) { (function(arrays, parts), ...); }, block); };
+  for (std::size_t begin = 0; begin < places.size(); begin += most)
+  {
+    const std::size_t end = std::min(begin + most, places.size());
+    std::size_t inTheWay = 0;
+    std::size_t left =
+      0; // places that elements of the block leave; never fewer than are in the way
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+    {
+      if (targets[i] != None && targets[i] >= end)
+      {
+        from[inTheWay++] = i;
+      }
+      if (places[i] >= end)
+      {
+        to[left++] = places[i];
+      }
+    }
+    ForAll(end - begin, threads,
+      [&](std::size_t k)
+      { forArrays([&](auto& array, auto& part) { part[k] = array[places[begin + k]]; }); });
+    ForAll(inTheWay, threads,
+      [&](std::size_t k)
+      {
+        forArrays([&](auto& array, auto&) { array[to[k]] = array[from[k]]; });
+        places[targets[from[k]]] = to[k];
+        targets[to[k]] = targets[from[k]];
+      });
+    for (std::size_t k = inTheWay; k < left; ++k)
+    {
+      targets[to[k]] = None;
+    }
+    ForAll(end - begin, threads,
+      [&](std::size_t k)
+      {
+        forArrays(
+          [&](auto& array, auto& part) { array[static_cast<std::uint32_t>(begin + k)] = part[k]; });
+      });
+  }
 }
 
 } // namespace
@@ -165,31 +228,18 @@ Numbers Inverse(const Numbers& order, std::uint32_t end, unsigned threads)
 template <int D>
 void Triangulation<D>::Renumber(unsigned threads)
 {
-  const Numbers vertices = OrderVertices(*this, threads);
-  const Numbers newVertices = Inverse(vertices, this->VertexIdEnd(), threads);
-  const Numbers simplices = OrderSimplices(*this, newVertices, vertices.size(), threads);
-  const Numbers newSimplices = Inverse(simplices, this->SimplexIdEnd(), threads);
+  Numbers vertices = OrderVertices(*this, threads);
+  Numbers newVertices = Inverse(vertices, this->VertexIdEnd(), threads);
+  Numbers simplices = OrderSimplices(*this, newVertices, vertices.size(), threads);
+  Numbers newSimplices = Inverse(simplices, this->SimplexIdEnd(), threads);
+  const auto vertexEnd = static_cast<VertexId>(vertices.size());
+  const auto simplexEnd = static_cast<SimplexId>(simplices.size());
 
-  this->Vertices.Reorder(vertices, threads);
-  this->Simplices.Reorder(simplices, threads);
-  this->States.Reorder(simplices, threads);
-  this->Marks.Reorder(simplices, threads);
-  if (!this->MeshLabels.empty())
-  {
-    this->MeshLabels.resize(this->SimplexIdEnd(), 0);
-    UninitialisedVector<LabelId> labels(simplices.size());
-    ForAll(
-      labels.size(), threads, [&](std::size_t i) { labels[i] = this->MeshLabels[simplices[i]]; });
-    this->MeshLabels.swap(labels);
-  }
-  this->NextVertex.store(static_cast<VertexId>(vertices.size()), std::memory_order_relaxed);
-  this->NextSimplex.store(static_cast<SimplexId>(simplices.size()), std::memory_order_relaxed);
-
-  ForAll(simplices.size(), threads,
+  ForAll(newSimplices.size(), threads,
     [&](std::size_t i)
     {
       Simplex& simplex = this->Simplices[static_cast<SimplexId>(i)];
-      for (unsigned k = 0; k < N; ++k)
+      for (unsigned k = 0; k < N && newSimplices[i] != None; ++k)
       {
         simplex.V[k] = newVertices[simplex.V[k]];
         simplex.N[k] = simplex.N[k] == None ? None : newSimplices[simplex.N[k]];
@@ -198,9 +248,25 @@ void Triangulation<D>::Renumber(unsigned threads)
   ForAll(vertices.size(), threads,
     [&](std::size_t i)
     {
-      Vertex& vertex = this->Vertices[static_cast<VertexId>(i)];
+      Vertex& vertex = this->Vertices[vertices[i]];
       vertex.Incident = newSimplices[vertex.Incident];
     });
+  if (!this->MeshLabels.empty())
+  {
+    this->MeshLabels.resize(newSimplices.size(), 0);
+    UninitialisedVector<LabelId> labels(simplices.size());
+    ForAll(
+      labels.size(), threads, [&](std::size_t i) { labels[i] = this->MeshLabels[simplices[i]]; });
+    this->MeshLabels.swap(labels);
+  }
+  Permute(vertices, newVertices, threads, this->Vertices);
+  Permute(simplices, newSimplices, threads, this->Simplices, this->States, this->Marks);
+  this->Vertices.Shrink(vertexEnd);
+  this->Simplices.Shrink(simplexEnd);
+  this->States.Shrink(simplexEnd);
+  this->Marks.Shrink(simplexEnd);
+  this->NextVertex.store(vertexEnd, std::memory_order_relaxed);
+  this->NextSimplex.store(simplexEnd, std::memory_order_relaxed);
 }
 
 template void Triangulation<3>::Renumber(unsigned);
