@@ -75,7 +75,7 @@ ManifoldLabels<D> ManifoldLabeller<D>::Repair(
   if (this->Options.Kept)
   {
     JoinedPieces<D> joined =
-      JoinPieces<D>(this->Source, this->Labels, this->Options, gaps, this->Stop);
+      JoinPieces<D>(this->Source, this->Labels, this->Options, gaps, this->Threads, this->Stop);
     add(joined.Relabelled);
     made.Gaps = std::move(joined.Gaps);
   }

@@ -72,12 +72,11 @@ auto CornersOf(const SimplexMesh<D>& mesh, std::size_t facet)
 
 //------------------------------------------------------------------------------------------------
 template <int D>
-void ComparePieces(const SimplexMesh<D>& mesh, const Components<D>& components,
+void ComparePieces(const LabelledCells<D>& elements, const Components<D>& components,
   const LabelImage<D>& image, const std::vector<bool>& wanted, ComponentStatistics& statistics,
-  const std::stop_token& stop)
+  unsigned threads, const std::stop_token& stop)
 {
-  const MeshElements<D> elements(mesh, image);
-  const ComponentPieces<D> pieces(elements, FindPieces<D>(mesh, stop), components, image, stop);
+  const ComponentPieces<D> pieces(elements, components, image, threads, stop);
   const double voxel = image.Grid().VoxelVolume();
   std::map<std::uint32_t, std::map<std::uint32_t, double>> volumes; // of components' pieces
   statistics.United.clear();
@@ -206,10 +205,10 @@ std::vector<FalseContact> FindFalseContacts(const SimplexMesh<D>& mesh, const La
   return all;
 }
 
-template void ComparePieces<3>(const SimplexMesh<3>&, const Components<3>&, const LabelImage<3>&,
-  const std::vector<bool>&, ComponentStatistics&, const std::stop_token&);
-template void ComparePieces<4>(const SimplexMesh<4>&, const Components<4>&, const LabelImage<4>&,
-  const std::vector<bool>&, ComponentStatistics&, const std::stop_token&);
+template void ComparePieces<3>(const LabelledCells<3>&, const Components<3>&, const LabelImage<3>&,
+  const std::vector<bool>&, ComponentStatistics&, unsigned, const std::stop_token&);
+template void ComparePieces<4>(const LabelledCells<4>&, const Components<4>&, const LabelImage<4>&,
+  const std::vector<bool>&, ComponentStatistics&, unsigned, const std::stop_token&);
 template std::vector<FalseContact> FindFalseContacts<3>(
   const SimplexMesh<3>&, const LabelImage<3>&, unsigned, const std::stop_token&);
 template std::vector<FalseContact> FindFalseContacts<4>(

@@ -10,6 +10,7 @@
 #include "Conformity/ComponentStatistics.h"
 #include "Image/Components.h"
 #include "Image/LabelContacts.h"
+#include "Mesh/LabelledCells.h"
 #include "Mesh/SimplexMesh.h"
 
 #include <stop_token>
@@ -22,16 +23,17 @@ namespace voxplex
  * Lists the components whose elements are in several pieces, and the pieces that unite components
  * which do not touch in the image: Broken and United of the statistics. The worst come first.
  *
- * O(n) for n elements, with about 60 bytes for each; if pieces unite components, also linear in the
+ * O(n) for n elements; if pieces unite components, also linear in the
  * voxels of these.
  *
  * @param wanted the components to look for (Components::FindWanted)
+ * @param threads 0 means all cores; the result does not depend on it
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
 template <int D>
-void ComparePieces(const SimplexMesh<D>& mesh, const Components<D>& components,
+void ComparePieces(const LabelledCells<D>& elements, const Components<D>& components,
   const LabelImage<D>& image, const std::vector<bool>& wanted, ComponentStatistics& statistics,
-  const std::stop_token& stop);
+  unsigned threads, const std::stop_token& stop);
 
 /**
  * Finds the interfaces of a mesh between two labels, or a label and background, that do not touch near

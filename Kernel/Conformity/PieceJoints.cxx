@@ -43,16 +43,15 @@ class PieceJoiner
 {
 public:
   PieceJoiner(const Triangulation<D>& triangulation, std::span<LabelId> labels,
-    const ManifoldRepairOptions<D>& options, GapOptions gaps, const std::stop_token& stop)
+    const ManifoldRepairOptions<D>& options, GapOptions gaps, unsigned threads,
+    const std::stop_token& stop)
     : Mesh(triangulation)
     , Labels(labels)
     , Of(*options.Kept)
     , Gaps(gaps)
     , Near(triangulation, labels)
     , Rules(this->Near, labels, options)
-    , Pieces(LabelledTriangulation<D>(triangulation, labels),
-        FindPieces<D>(LabelledTriangulation<D>(triangulation, labels), stop), Of.All, Of.Image,
-        stop)
+    , Pieces(LabelledTriangulation<D>(triangulation, labels), Of.All, Of.Image, threads, stop)
     , Joined(this->Pieces.All().size())
     , Stop(stop)
   {
@@ -313,14 +312,15 @@ private:
 
 template <int D>
 JoinedPieces<D> JoinPieces(const Triangulation<D>& triangulation, std::span<LabelId> labels,
-  const ManifoldRepairOptions<D>& options, GapOptions gaps, const std::stop_token& stop)
+  const ManifoldRepairOptions<D>& options, GapOptions gaps, unsigned threads,
+  const std::stop_token& stop)
 {
-  return PieceJoiner<D>(triangulation, labels, options, gaps, stop).Join();
+  return PieceJoiner<D>(triangulation, labels, options, gaps, threads, stop).Join();
 }
 
 template JoinedPieces<3> JoinPieces<3>(const Triangulation<3>&, std::span<LabelId>,
-  const ManifoldRepairOptions<3>&, GapOptions, const std::stop_token&);
+  const ManifoldRepairOptions<3>&, GapOptions, unsigned, const std::stop_token&);
 template JoinedPieces<4> JoinPieces<4>(const Triangulation<4>&, std::span<LabelId>,
-  const ManifoldRepairOptions<4>&, GapOptions, const std::stop_token&);
+  const ManifoldRepairOptions<4>&, GapOptions, unsigned, const std::stop_token&);
 
 } // namespace voxplex

@@ -70,7 +70,8 @@ struct JoinedPieces
  */
 template <int D>
 JoinedPieces<D> JoinPieces(const Triangulation<D>& triangulation, std::span<LabelId> labels,
-  const ManifoldRepairOptions<D>& options, GapOptions gaps, const std::stop_token& stop);
+  const ManifoldRepairOptions<D>& options, GapOptions gaps, unsigned threads,
+  const std::stop_token& stop);
 
 } // namespace voxplex
 

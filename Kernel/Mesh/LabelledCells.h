@@ -44,7 +44,9 @@ public:
   {
   }
 
+  std::span<const LabelId> GetLabels() const { return this->Labels; }
   std::size_t Size() const { return this->Cells.size(); }
+  const auto& NeighboursOf(std::size_t element) const { return this->Cells[element].N; }
 
   auto PointsOf(std::size_t element) const
   {

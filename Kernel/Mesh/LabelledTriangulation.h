@@ -39,6 +39,10 @@ public:
   const Triangulation<D>& GetTriangulation() const { return this->Source; }
   std::span<const LabelId> GetLabels() const { return this->Labels; }
   std::size_t Size() const { return this->Labels.size(); }
+  const auto& NeighboursOf(std::size_t element) const
+  {
+    return this->Source.GetSimplex(static_cast<SimplexId>(element)).N;
+  }
 
   /** The points of an element that has a label. */
   auto PointsOf(std::size_t element) const

@@ -57,27 +57,26 @@ ComponentGuard<D> MakeGuard(const RunEnvironment<D>& run)
 }
 
 template <int D>
-void CompareWithImage(const RunEnvironment<D>& run, const SimplexMesh<D>& mesh)
+void CompareWithImage(const RunEnvironment<D>& run, const LabelledCells<D>& elements)
 {
   const Stopwatch time;
   const LabelImage<D>& image = run.Prepared.Image;
+  const unsigned threads = run.Options.Team.Threads;
   ForComponents(run,
     [&](const Components<D>& components, const std::vector<bool>& wanted,
       ComponentStatistics& statistics)
     {
       statistics.Lost.clear();
       for (const std::uint32_t c :
-        FindLostComponents(components, image, mesh, wanted, run.Options.Team.Threads, run.Stop))
+        FindLostComponents(components, image, elements, wanted, threads, run.Stop))
       {
         statistics.Lost.push_back(MakeReport(components.All()[c], image));
       }
       if (&statistics == &run.Statistics.Components)
       {
-        ComparePieces(mesh, components, image, wanted, statistics, run.Stop);
+        ComparePieces(elements, components, image, wanted, statistics, threads, run.Stop);
       }
     });
-  run.Statistics.Components.Contacts =
-    FindFalseContacts(mesh, run.Prepared.OfDomain(), run.Options.Team.Threads, run.Stop);
   run.Statistics.Times.Components += time.Seconds();
 }
 
@@ -237,6 +236,10 @@ void FinishMesh(const RunEnvironment<D>& run, InspectedMesh<D>& inspected, Simpl
     times.Optimisation += time.Seconds();
   }
   time = Stopwatch();
+  complex.Compact(false, threads, run.Stop);
+  times.Extraction += time.Seconds();
+  CompareWithImage<D>(run, complex.Elements());
+  time = Stopwatch();
   complex.Write(run.Prepared.OfDomain().Values(), mesh, threads, run.Stop);
   if constexpr (D == 4)
   {
@@ -244,7 +247,10 @@ void FinishMesh(const RunEnvironment<D>& run, InspectedMesh<D>& inspected, Simpl
     FindSlabs(run.Prepared.Planes, mesh);
   }
   times.Extraction += time.Seconds();
-  CompareWithImage(run, mesh);
+  time = Stopwatch();
+  run.Statistics.Components.Contacts =
+    FindFalseContacts(mesh, run.Prepared.OfDomain(), threads, run.Stop);
+  times.Components += time.Seconds();
 }
 
 template InspectedMesh<3> TakeMesh<3>(

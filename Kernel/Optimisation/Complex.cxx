@@ -300,8 +300,7 @@ void Complex<D>::Protect(ComponentGuard<D>* guard, unsigned threads, const std::
   this->AreHolders.clear();
   if (guard)
   {
-    this->AreHolders =
-      guard->FindHolders(LabelledCells<D>(this->Points, this->Cells, this->Labels), threads, stop);
+    this->AreHolders = guard->FindHolders(this->Elements(), threads, stop);
   }
 }
 
@@ -484,18 +483,18 @@ template <int D>
 void Complex<D>::Write(std::span<const std::int64_t> values, SimplexMesh<D>& mesh, unsigned threads,
   const std::stop_token& stop)
 {
-  mesh = SimplexMesh<D>();
-  this->Compact(false, threads, stop);
-  mesh.Simplices.resize(this->Cells.size());
-  mesh.Labels.resize(this->Cells.size());
+  mesh = SimplexMesh<D>(); // and stays empty if this throws
+  SimplexMesh<D> whole;
+  whole.Simplices.resize(this->Cells.size());
+  whole.Labels.resize(this->Cells.size());
   ParallelFor(
     0, this->Cells.size(), Grain, threads,
     [&](std::size_t first, std::size_t end)
     {
       for (std::size_t t = first; t < end; ++t)
       {
-        mesh.Simplices[t] = this->Cells[t].V;
-        mesh.Labels[t] = values[this->Labels[t]];
+        whole.Simplices[t] = this->Cells[t].V;
+        whole.Labels[t] = values[this->Labels[t]];
       }
     },
     stop);
@@ -504,13 +503,13 @@ void Complex<D>::Write(std::span<const std::int64_t> values, SimplexMesh<D>& mes
     BeyondEnd::Background,
     [&](std::size_t number)
     {
-      mesh.Facets.resize(number);
-      mesh.FacetLabels.resize(number);
+      whole.Facets.resize(number);
+      whole.FacetLabels.resize(number);
     },
     [&](std::size_t place, std::uint32_t t, unsigned i, LabelId beside)
     {
-      mesh.Facets[place] = OutwardFacet(this->Cells[t].V, i);
-      mesh.FacetLabels[place] = { mesh.Labels[t], values[beside] };
+      whole.Facets[place] = OutwardFacet(this->Cells[t].V, i);
+      whole.FacetLabels[place] = { whole.Labels[t], values[beside] };
     },
     threads, stop);
   for (std::uint32_t v = 0; v < this->Twins.size(); ++v)
@@ -518,10 +517,11 @@ void Complex<D>::Write(std::span<const std::int64_t> values, SimplexMesh<D>& mes
     const std::uint32_t twin = this->Twins[v];
     if (twin != None && this->Points[v][D - 1] < this->Points[twin][D - 1])
     {
-      mesh.Twins.push_back({ v, twin });
+      whole.Twins.push_back({ v, twin });
     }
   }
-  mesh.Points = std::move(this->Points);
+  whole.Points = std::move(this->Points);
+  mesh = std::move(whole);
   *this = Complex();
 }
 

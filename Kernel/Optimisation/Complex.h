@@ -181,8 +181,8 @@ public:
   void Protect(ComponentGuard<D>* guard, unsigned threads = 1, const std::stop_token& stop = {});
 
   /**
-   * Writes the mesh: all but Slabs. Points and cells have the order of Compact(). The complex is empty
-   * afterwards.
+   * Writes the mesh: all but Slabs. The complex must be compact, without cells around the object. It is
+   * empty afterwards.
    * @param values of the label ids in the image; that of background is 0
    * @param mesh its old contents are lost
    */
@@ -194,6 +194,8 @@ public:
   /** Adds unused vertices. */
   void AddVertices(std::size_t number);
 
+  /** The cells with their labels. All must be alive. */
+  LabelledCells<D> Elements() const { return { this->Points, this->Cells, this->Labels }; }
   bool IsAlive(std::uint32_t t) const { return this->Cells[t].V[0] != None; }
   /** Whether a component needs t: see Guard. */
   bool IsHolder(std::uint32_t t) const

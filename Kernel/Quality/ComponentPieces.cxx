@@ -4,6 +4,7 @@
 
 #include "Base/GridIndex.h"
 #include "Geometry/SimplexQuality.h"
+#include "Parallel/ParallelCollect.h"
 #include "Parallel/ParallelFor.h"
 #include "Quality/ElementVoxels.h"
 
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 namespace voxplex
 {
@@ -18,109 +20,77 @@ namespace voxplex
 namespace
 {
 
+constexpr std::size_t Grain = 65536;
+
 /** A facet without its smallest vertex, and an element that has it. */
-template <int D>
 struct SortedFacet
 {
-  std::array<std::uint32_t, static_cast<std::size_t>(D - 1)> Others;
+  std::array<std::uint32_t, 2> Others;
   std::uint32_t Element;
 
   bool operator<(const SortedFacet& other) const { return this->Others < other.Others; }
 };
 
-template <int D, typename Visit>
-void ForEachFacet(const SimplexMesh<D>& mesh, const Visit& visit)
+template <typename Visit>
+void ForEachFacet(const SimplexMesh<3>& mesh, const Visit& visit)
 {
   for (std::uint32_t s = 0; s < mesh.Simplices.size(); ++s)
   {
     auto v = mesh.Simplices[s];
     std::sort(v.begin(), v.end());
-    for (std::size_t without = 0; without <= D; ++without)
-    {
-      SortedFacet<D> facet{ {}, s };
-      const std::size_t first = without == 0 ? 1 : 0;
-      std::size_t n = 0;
-      for (std::size_t k = first + 1; k <= D; ++k)
-      {
-        if (k != without)
-        {
-          facet.Others[n++] = v[k];
-        }
-      }
-      visit(v[first], facet);
-    }
+    visit(v[0], SortedFacet{ { v[1], v[2] }, s });
+    visit(v[0], SortedFacet{ { v[1], v[3] }, s });
+    visit(v[0], SortedFacet{ { v[2], v[3] }, s });
+    visit(v[1], SortedFacet{ { v[2], v[3] }, s });
   }
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-template <int D>
-DisjointSets FindPieces(const LabelledTriangulation<D>& elements, const std::stop_token& stop)
+template <typename Elements>
+DisjointSets FindPieces(const Elements& elements, unsigned threads, const std::stop_token& stop)
 {
-  const Triangulation<D>& mesh = elements.GetTriangulation();
   const std::span<const LabelId> labels = elements.GetLabels();
   DisjointSets pieces(labels.size());
-  for (SimplexId s = 0; s < labels.size(); ++s)
-  {
-    if (labels[s] != 0)
+  // Each thread joins elements of its own chunk. Those of two chunks are joined at the end.
+  using Pair = std::array<std::uint32_t, 2>;
+  const std::vector<Pair> across = ParallelCollect<Pair>(
+    labels.size(), Grain, threads,
+    [&](std::size_t first, std::size_t last, std::vector<Pair>& found)
     {
-      for (const SimplexId n : mesh.GetSimplex(s).N)
+      for (auto s = static_cast<std::uint32_t>(first); s < last; ++s)
       {
-        if (n < s && labels[n] == labels[s])
+        if (labels[s] == 0)
         {
-          pieces.Join(s, n);
+          continue;
+        }
+        for (const std::uint32_t n : elements.NeighboursOf(s))
+        {
+          if (n < s && labels[n] == labels[s])
+          {
+            n >= first ? pieces.Join(s, n) : found.push_back({ s, n });
+          }
         }
       }
-    }
-  }
-  ThrowIfStopped(stop);
-  return pieces;
-}
-
-template <int D>
-DisjointSets FindPieces(const SimplexMesh<D>& mesh, const std::stop_token& stop)
-{
-  std::vector<std::size_t> ends(mesh.Points.size() + 1); // of the facets of each smallest vertex
-  ForEachFacet(mesh, [&](std::uint32_t v, const SortedFacet<D>&) { ++ends[v + 1]; });
-  for (std::size_t v = 1; v < ends.size(); ++v)
+    },
+    stop);
+  for (const auto& [s, n] : across)
   {
-    ends[v] += ends[v - 1];
+    pieces.Join(s, n);
   }
-  ThrowIfStopped(stop);
-  std::vector<SortedFacet<D>> facets(ends.back());
-  ForEachFacet(
-    mesh, [&](std::uint32_t v, const SortedFacet<D>& facet) { facets[ends[v]++] = facet; });
-  ThrowIfStopped(stop);
-  DisjointSets pieces(mesh.Simplices.size());
-  std::size_t first = 0;
-  for (std::size_t v = 0; v < mesh.Points.size(); ++v)
-  {
-    std::sort(facets.begin() + static_cast<std::ptrdiff_t>(first),
-      facets.begin() + static_cast<std::ptrdiff_t>(ends[v]));
-    for (std::size_t k = first + 1; k < ends[v]; ++k)
-    {
-      const SortedFacet<D>& a = facets[k - 1];
-      const SortedFacet<D>& b = facets[k];
-      if (a.Others == b.Others && mesh.Labels[a.Element] == mesh.Labels[b.Element])
-      {
-        pieces.Join(a.Element, b.Element);
-      }
-    }
-    first = ends[v];
-  }
-  ThrowIfStopped(stop);
   return pieces;
 }
 
 //------------------------------------------------------------------------------------------------
 template <int D>
 template <typename Elements>
-ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets pieces,
-  const Components<D>& components, const LabelImage<D>& image, const std::stop_token& stop)
+ComponentPieces<D>::ComponentPieces(const Elements& elements, const Components<D>& components,
+  const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
   : Numbers(elements.Size(), None)
 {
-  typename Elements::LabelReader labelOf(elements);
+  DisjointSets pieces = FindPieces(elements, threads, stop);
+  const std::span<const LabelId> labels = elements.GetLabels();
   std::vector<std::uint32_t> only(image.Values().size(), None); // component of each label
   std::vector<bool> hasSeveral(only.size());
   for (std::uint32_t c = 0; c < components.All().size(); ++c)
@@ -131,7 +101,7 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets piece
   }
   for (std::uint32_t s = 0; s < this->Numbers.size(); ++s)
   {
-    const LabelId label = labelOf(s);
+    const LabelId label = labels[s];
     if (label == 0)
     {
       continue;
@@ -153,33 +123,37 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets piece
     std::array<std::uint32_t, 2> Of; ///< piece, component
     double Volume;
   };
-  std::vector<HeldVolume> held;
-  for (std::size_t s = 0; s < this->Numbers.size(); ++s)
-  {
-    if (this->Numbers[s] == None || !hasSeveral[this->List[this->Numbers[s]].Label])
+  std::vector<HeldVolume> held = ParallelCollect<HeldVolume>(
+    this->Numbers.size(), Grain, threads,
+    [&](std::size_t begin, std::size_t end, std::vector<HeldVolume>& found)
     {
-      continue;
-    }
-    const Piece& piece = this->List[this->Numbers[s]];
-    const auto corners = elements.PointsOf(s);
-    const double volume = std::abs(SignedVolume<D>(corners.data()));
-    voxels.ForEachVoxel(corners,
-      [&](const auto& voxel)
+      for (std::size_t s = begin; s < end; ++s)
       {
-        const std::uint32_t c = components.At(voxel);
-        if (c == None || components.All()[c].Label != piece.Label)
+        if (this->Numbers[s] == None || !hasSeveral[labels[s]])
         {
-          return;
+          continue;
         }
-        const std::array of{ this->Numbers[s], c };
-        if (held.empty() || held.back().Of != of) // elements near each other have like numbers
-        {
-          held.push_back({ of, 0.0 });
-        }
-        held.back().Volume += volume;
-      });
-  }
-  ThrowIfStopped(stop);
+        const auto corners = elements.PointsOf(s);
+        const double volume = std::abs(SignedVolume<D>(corners.data()));
+        voxels.ForEachVoxel(corners,
+          [&](const auto& voxel)
+          {
+            const std::uint32_t c = components.At(voxel);
+            if (c == None || components.All()[c].Label != labels[s])
+            {
+              return;
+            }
+            const std::array of{ this->Numbers[s], c };
+            if (found.empty() ||
+              found.back().Of != of) // elements near each other have like numbers
+            {
+              found.push_back({ of, 0.0 });
+            }
+            found.back().Volume += volume;
+          });
+      }
+    },
+    stop);
   std::stable_sort(
     held.begin(), held.end(), [](const HeldVolume& a, const HeldVolume& b) { return a.Of < b.Of; });
   for (std::size_t k = 0; k < held.size(); ++k)
@@ -218,10 +192,38 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, DisjointSets piece
   }
 }
 
+//------------------------------------------------------------------------------------------------
 std::map<std::int64_t, std::uint64_t> CountFragments(
   const SimplexMesh<3>& mesh, const std::stop_token& stop)
 {
-  DisjointSets pieces = FindPieces<3>(mesh, stop);
+  std::vector<std::size_t> ends(mesh.Points.size() + 1); // of the facets of each smallest vertex
+  ForEachFacet(mesh, [&](std::uint32_t v, const SortedFacet&) { ++ends[v + 1]; });
+  for (std::size_t v = 1; v < ends.size(); ++v)
+  {
+    ends[v] += ends[v - 1];
+  }
+  ThrowIfStopped(stop);
+  std::vector<SortedFacet> facets(ends.back());
+  ForEachFacet(mesh, [&](std::uint32_t v, const SortedFacet& facet) { facets[ends[v]++] = facet; });
+  ThrowIfStopped(stop);
+  DisjointSets pieces(mesh.Simplices.size());
+  std::size_t first = 0;
+  for (std::size_t v = 0; v < mesh.Points.size(); ++v)
+  {
+    std::sort(facets.begin() + static_cast<std::ptrdiff_t>(first),
+      facets.begin() + static_cast<std::ptrdiff_t>(ends[v]));
+    for (std::size_t k = first + 1; k < ends[v]; ++k)
+    {
+      const SortedFacet& a = facets[k - 1];
+      const SortedFacet& b = facets[k];
+      if (a.Others == b.Others && mesh.Labels[a.Element] == mesh.Labels[b.Element])
+      {
+        pieces.Join(a.Element, b.Element);
+      }
+    }
+    first = ends[v];
+  }
+  ThrowIfStopped(stop);
   std::map<std::int64_t, std::uint64_t> numbers;
   for (std::uint32_t s = 0; s < mesh.Simplices.size(); ++s)
   {
@@ -230,19 +232,19 @@ std::map<std::int64_t, std::uint64_t> CountFragments(
   return numbers;
 }
 
-template DisjointSets FindPieces<3>(const LabelledTriangulation<3>&, const std::stop_token&);
-template DisjointSets FindPieces<4>(const LabelledTriangulation<4>&, const std::stop_token&);
-template DisjointSets FindPieces<3>(const SimplexMesh<3>&, const std::stop_token&);
-template DisjointSets FindPieces<4>(const SimplexMesh<4>&, const std::stop_token&);
+template DisjointSets FindPieces(const LabelledTriangulation<3>&, unsigned, const std::stop_token&);
+template DisjointSets FindPieces(const LabelledTriangulation<4>&, unsigned, const std::stop_token&);
+template DisjointSets FindPieces(const LabelledCells<3>&, unsigned, const std::stop_token&);
+template DisjointSets FindPieces(const LabelledCells<4>&, unsigned, const std::stop_token&);
 template class ComponentPieces<3>;
 template class ComponentPieces<4>;
-template ComponentPieces<3>::ComponentPieces(const LabelledTriangulation<3>&, DisjointSets,
-  const Components<3>&, const LabelImage<3>&, const std::stop_token&);
-template ComponentPieces<4>::ComponentPieces(const LabelledTriangulation<4>&, DisjointSets,
-  const Components<4>&, const LabelImage<4>&, const std::stop_token&);
-template ComponentPieces<3>::ComponentPieces(const MeshElements<3>&, DisjointSets,
-  const Components<3>&, const LabelImage<3>&, const std::stop_token&);
-template ComponentPieces<4>::ComponentPieces(const MeshElements<4>&, DisjointSets,
-  const Components<4>&, const LabelImage<4>&, const std::stop_token&);
+template ComponentPieces<3>::ComponentPieces(const LabelledTriangulation<3>&, const Components<3>&,
+  const LabelImage<3>&, unsigned, const std::stop_token&);
+template ComponentPieces<4>::ComponentPieces(const LabelledTriangulation<4>&, const Components<4>&,
+  const LabelImage<4>&, unsigned, const std::stop_token&);
+template ComponentPieces<3>::ComponentPieces(const LabelledCells<3>&, const Components<3>&,
+  const LabelImage<3>&, unsigned, const std::stop_token&);
+template ComponentPieces<4>::ComponentPieces(const LabelledCells<4>&, const Components<4>&,
+  const LabelImage<4>&, unsigned, const std::stop_token&);
 
 } // namespace voxplex

@@ -9,8 +9,9 @@
 
 #include "Base/DisjointSets.h"
 #include "Image/Components.h"
+#include "Mesh/LabelledCells.h"
 #include "Mesh/LabelledTriangulation.h"
-#include "Mesh/MeshElements.h"
+#include "Mesh/SimplexMesh.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,24 +23,25 @@
 namespace voxplex
 {
 
-///@{
 /**
  * The pieces of each label: maximal sets of its elements that are connected through faces (4D: through
  * tetrahedra). A finite-element model of a label holds together if it has one. Each set is named by its
  * first element.
  *
- * Takes time linear in the number of elements. For a mesh without a triangulation, also 12 D + 12
- * bytes for each, if few elements share a point.
+ * Takes time linear in the number of elements.
  *
+ * @param elements LabelledTriangulation or LabelledCells
+ * @param threads 0 means all cores; the result does not depend on it
  * @throws Cancelled if a stop was requested before the end; std::bad_alloc
  */
-template <int D>
-DisjointSets FindPieces(const LabelledTriangulation<D>& elements, const std::stop_token& stop = {});
-template <int D>
-DisjointSets FindPieces(const SimplexMesh<D>& mesh, const std::stop_token& stop = {});
-///@}
+template <typename Elements>
+DisjointSets FindPieces(
+  const Elements& elements, unsigned threads = 1, const std::stop_token& stop = {});
 
-/** The number of pieces of each label value. For the rest, see FindPieces(). */
+/**
+ * The number of pieces of each label value. Neighbours are found by their vertices, in linear time and with
+ * 48 bytes for each element, if few elements share a point. For the rest, see FindPieces().
+ */
 std::map<std::int64_t, std::uint64_t> CountFragments(
   const SimplexMesh<3>& mesh, const std::stop_token& stop = {});
 
@@ -69,13 +71,11 @@ public:
 
   /**
    * Takes time linear in the number of elements, and memory of 8 bytes for each.
-   * @param elements LabelledTriangulation or MeshElements
-   * @param pieces FindPieces() of these
-   * @throws Cancelled if a stop was requested before the end; std::bad_alloc
+   * For the rest, see FindPieces().
    */
   template <typename Elements>
-  ComponentPieces(const Elements& elements, DisjointSets pieces, const Components<D>& components,
-    const LabelImage<D>& image, const std::stop_token& stop);
+  ComponentPieces(const Elements& elements, const Components<D>& components,
+    const LabelImage<D>& image, unsigned threads = 1, const std::stop_token& stop = {});
 
   const std::vector<Piece>& All() const { return this->List; }
 

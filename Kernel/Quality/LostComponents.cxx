@@ -209,10 +209,13 @@ private:
   std::unique_ptr<std::atomic<std::uint32_t>[]> Missing;   ///< wanted components by label
 };
 
+} // namespace
+
+//------------------------------------------------------------------------------------------------
 template <int D, typename Elements>
-std::vector<std::uint32_t> FindLost(const Components<D>& components, const LabelImage<D>& image,
-  const Elements& elements, const std::vector<bool>& wanted, unsigned threads,
-  const std::stop_token& stop)
+std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
+  const LabelImage<D>& image, const Elements& elements, const std::vector<bool>& wanted,
+  unsigned threads, const std::stop_token& stop)
 {
   const std::vector<std::uint32_t> witnesses =
     WitnessSearch<D, Elements>(components, image, elements, wanted, false, threads, stop).Find();
@@ -227,23 +230,12 @@ std::vector<std::uint32_t> FindLost(const Components<D>& components, const Label
   return lost;
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------------------------
 template <int D>
 std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
   const LabelImage<D>& image, const SimplexMesh<D>& mesh, const std::vector<bool>& wanted,
   unsigned threads, const std::stop_token& stop)
 {
-  return FindLost(components, image, MeshElements<D>(mesh, image), wanted, threads, stop);
-}
-
-template <int D>
-std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
-  const LabelImage<D>& image, const LabelledTriangulation<D>& elements,
-  const std::vector<bool>& wanted, unsigned threads, const std::stop_token& stop)
-{
-  return FindLost(components, image, elements, wanted, threads, stop);
+  return FindLostComponents(components, image, MeshElements<D>(mesh, image), wanted, threads, stop);
 }
 
 //------------------------------------------------------------------------------------------------
@@ -256,18 +248,18 @@ std::vector<std::uint32_t> FindFirstWitnesses(const Components<D>& components,
     .Find();
 }
 
-template std::vector<std::uint32_t> FindLostComponents<3>(const Components<3>&,
-  const LabelImage<3>&, const SimplexMesh<3>&, const std::vector<bool>&, unsigned,
-  const std::stop_token&);
-template std::vector<std::uint32_t> FindLostComponents<3>(const Components<3>&,
-  const LabelImage<3>&, const LabelledTriangulation<3>&, const std::vector<bool>&, unsigned,
-  const std::stop_token&);
-template std::vector<std::uint32_t> FindLostComponents<4>(const Components<4>&,
-  const LabelImage<4>&, const SimplexMesh<4>&, const std::vector<bool>&, unsigned,
-  const std::stop_token&);
-template std::vector<std::uint32_t> FindLostComponents<4>(const Components<4>&,
-  const LabelImage<4>&, const LabelledTriangulation<4>&, const std::vector<bool>&, unsigned,
-  const std::stop_token&);
+template std::vector<std::uint32_t> FindLostComponents(const Components<3>&, const LabelImage<3>&,
+  const SimplexMesh<3>&, const std::vector<bool>&, unsigned, const std::stop_token&);
+template std::vector<std::uint32_t> FindLostComponents(const Components<3>&, const LabelImage<3>&,
+  const LabelledTriangulation<3>&, const std::vector<bool>&, unsigned, const std::stop_token&);
+template std::vector<std::uint32_t> FindLostComponents(const Components<3>&, const LabelImage<3>&,
+  const LabelledCells<3>&, const std::vector<bool>&, unsigned, const std::stop_token&);
+template std::vector<std::uint32_t> FindLostComponents(const Components<4>&, const LabelImage<4>&,
+  const SimplexMesh<4>&, const std::vector<bool>&, unsigned, const std::stop_token&);
+template std::vector<std::uint32_t> FindLostComponents(const Components<4>&, const LabelImage<4>&,
+  const LabelledTriangulation<4>&, const std::vector<bool>&, unsigned, const std::stop_token&);
+template std::vector<std::uint32_t> FindLostComponents(const Components<4>&, const LabelImage<4>&,
+  const LabelledCells<4>&, const std::vector<bool>&, unsigned, const std::stop_token&);
 template std::vector<std::uint32_t> FindFirstWitnesses(const Components<3>&, const LabelImage<3>&,
   const LabelledCells<3>&, const std::vector<bool>&, unsigned, const std::stop_token&);
 template std::vector<std::uint32_t> FindFirstWitnesses(const Components<4>&, const LabelImage<4>&,

@@ -8,6 +8,7 @@
 #define voxplex_LostComponents_h
 
 #include "Image/Components.h"
+#include "Mesh/LabelledCells.h"
 #include "Mesh/LabelledTriangulation.h"
 #include "Mesh/SimplexMesh.h"
 
@@ -38,11 +39,11 @@ std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
   const LabelImage<D>& image, const SimplexMesh<D>& mesh, const std::vector<bool>& wanted,
   unsigned threads, const std::stop_token& stop = {});
 
-/** The same for a mesh that has not been extracted yet. */
-template <int D>
+/** The same for LabelledTriangulation or LabelledCells. */
+template <int D, typename Elements>
 std::vector<std::uint32_t> FindLostComponents(const Components<D>& components,
-  const LabelImage<D>& image, const LabelledTriangulation<D>& elements,
-  const std::vector<bool>& wanted, unsigned threads, const std::stop_token& stop = {});
+  const LabelImage<D>& image, const Elements& elements, const std::vector<bool>& wanted,
+  unsigned threads, const std::stop_token& stop = {});
 
 /**
  * Finds a witness of each component: the first of the elements that have their centroid in it, as

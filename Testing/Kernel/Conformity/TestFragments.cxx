@@ -59,7 +59,7 @@ struct LabelledMesh
     options.Kept.emplace(KeptComponents<3>{ components, this->Image,
       wants ? components.FindWanted(8) : std::vector<bool>(components.All().size()) });
     options.Keeps = [mayRelabel](SimplexId) { return !mayRelabel; };
-    return JoinPieces<3>(this->Mesh(), this->Labels, options, gaps, stop);
+    return JoinPieces<3>(this->Mesh(), this->Labels, options, gaps, 2, stop);
   }
 
   /** The number of pieces beside the first of each component. */
@@ -67,7 +67,7 @@ struct LabelledMesh
   {
     const Components<3> components(this->Image);
     const LabelledTriangulation<3> elements(this->Mesh(), this->Labels);
-    const ComponentPieces<3> pieces(elements, FindPieces<3>(elements), components, this->Image, {});
+    const ComponentPieces<3> pieces(elements, components, this->Image);
     std::set<std::uint32_t> held;
     for (const auto& piece : pieces.All())
     {
@@ -387,8 +387,7 @@ TEST(ComponentPieces, OfALabelWithOneComponentBelongToItWhereverTheyAre)
     mesh.Simplices.push_back({ first, first + 1, first + 2, first + 3 });
     mesh.Labels.push_back(1);
   }
-  const ComponentPieces<3> pieces(
-    MeshElements<3>(mesh, image), FindPieces<3>(mesh), Components<3>(image), image, {});
+  const ComponentPieces<3> pieces(ComplexOf<3>(mesh).Elements(), Components<3>(image), image);
   ASSERT_EQ(pieces.All().size(), 2u);
   EXPECT_EQ(pieces.All()[0].Component, 0u);
   EXPECT_EQ(pieces.All()[1].Component, 0u);
@@ -402,16 +401,15 @@ TEST(ComponentPieces, AreThoseOfTheExtractedMesh)
     SimplexMesh<3> mesh;
     ExtractMesh<3>(blobs.Mesh(), blobs.Surfaces, blobs.Labels, mesh, 1);
     const LabelledTriangulation<3> elements(blobs.Mesh(), blobs.Labels);
-    const ComponentPieces<3> pieces(
-      elements, FindPieces<3>(elements), Components<3>(blobs.Image), blobs.Image, {});
+    const ComponentPieces<3> pieces(elements, Components<3>(blobs.Image), blobs.Image);
     std::map<std::int64_t, std::uint64_t> numbers;
     for (const auto& piece : pieces.All())
     {
       ++numbers[blobs.Surfaces.LabelValue(piece.Label)];
     }
     EXPECT_EQ(numbers, CountFragments(mesh));
-    const ComponentPieces<3> extracted(MeshElements<3>(mesh, blobs.Image), FindPieces<3>(mesh),
-      Components<3>(blobs.Image), blobs.Image, {});
+    const ComponentPieces<3> extracted(
+      ComplexOf<3>(mesh, &blobs.Surfaces).Elements(), Components<3>(blobs.Image), blobs.Image);
     std::map<std::uint32_t, std::array<double, 2>> sums; // elements and shares of each component
     const auto add = [&sums](const ComponentPieces<3>& some, double sign)
     {

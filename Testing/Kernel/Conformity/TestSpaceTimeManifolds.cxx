@@ -74,6 +74,7 @@ struct Opened
     UninitialisedVector<std::uint32_t> numbers;
     PentatopeComplex complex(triangulation, labels, {}, numbers, threads);
     this->Left = OpenRidges<4>(complex, domain, this->Triangles);
+    complex.Compact(false, threads);
     complex.Write(ValuesOf(domain, labels), this->After, threads);
   }
 

@@ -337,6 +337,7 @@ TEST(Complex, StopsInTheMiddle)
 
     UninitialisedVector<std::uint32_t> numbers;
     Complex<3> complex(*triangulation, LabelSimplices<3>(*triangulation, counted), {}, numbers);
+    complex.Compact(false);
     EXPECT_THROW(
       complex.Write(ValuesOf<3>(counted, { 1, 2 }), mesh, threads, last.Stop.get_token()),
       Cancelled);

@@ -57,7 +57,9 @@ struct Opened
     ExtractMesh<3>(triangulation, domain, labels, this->Before, threads);
     this->Edges = BadEdgesOf(this->Before); // points of the mesh have the numbers of the complex
     this->Left = OpenRidges<3>(this->Pieces, domain, this->Edges);
-    TetrahedralComplex(this->Pieces).Write(ValuesOf(domain, labels), this->After, threads);
+    TetrahedralComplex complex = this->Pieces;
+    complex.Compact(false, threads);
+    complex.Write(ValuesOf(domain, labels), this->After, threads);
   }
 
   /** Checks what must hold with all labels. */

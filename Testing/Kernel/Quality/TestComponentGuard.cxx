@@ -29,9 +29,7 @@ template <int D>
 std::vector<std::uint8_t> HoldersIn(
   ComponentGuard<D>& guard, const SimplexMesh<D>& mesh, unsigned threads)
 {
-  const Complex<D> complex = checks::ComplexOf<D>(mesh);
-  return guard.FindHolders(
-    LabelledCells<D>(complex.Points, complex.Cells, complex.Labels), threads);
+  return guard.FindHolders(checks::ComplexOf<D>(mesh).Elements(), threads);
 }
 
 /** Noise, smoothed a little, in classes: many small components of each. */

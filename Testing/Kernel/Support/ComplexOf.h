@@ -124,6 +124,7 @@ SimplexMesh<D> Written(Complex<D> complex)
     }
   }
   SimplexMesh<D> mesh;
+  complex.Compact(false);
   complex.Write(values, mesh);
   return mesh;
 }
@@ -136,6 +137,7 @@ auto ChangeMesh(SimplexMesh<D>& mesh, const Domain<D>& domain, const Function& f
   const LabelValues<D> values(mesh, &domain);
   Complex<D> complex = ComplexOf<D>(mesh, &domain);
   const auto result = function(complex);
+  complex.Compact(false, threads, stop);
   complex.Write(values.Values, mesh, threads, stop);
   return result;
 }
@@ -182,8 +184,9 @@ void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& domain,
 {
   mesh = SimplexMesh<D>();
   UninitialisedVector<std::uint32_t> numbers;
-  Complex<D>(triangulation, labels, {}, numbers, threads, stop)
-    .Write(ValuesOf(domain, labels), mesh, threads, stop);
+  Complex<D> complex(triangulation, labels, {}, numbers, threads, stop);
+  complex.Compact(false, threads, stop);
+  complex.Write(ValuesOf(domain, labels), mesh, threads, stop);
 }
 
 template <int D>
