@@ -173,7 +173,7 @@ Numbers Inverse(const Numbers& order, std::uint32_t end, unsigned threads)
 template <typename... Arrays>
 void Permute(Numbers& places, Numbers& targets, unsigned threads, Arrays&... arrays)
 {
-  constexpr std::size_t ElementsOfBlock = std::size_t{ 1 } << 17;
+  constexpr std::size_t ElementsOfBlock = std::size_t{ 1 } << 16;
   const std::size_t most = std::min(places.size(), ElementsOfBlock);
   std::tuple<std::vector<std::remove_reference_t<decltype(arrays[0])>>...> block{
     std::vector<std::remove_reference_t<decltype(arrays[0])>>(most)...
@@ -186,8 +186,7 @@ void Permute(Numbers& places, Numbers& targets, unsigned threads, Arrays&... arr
   {
     const std::size_t end = std::min(begin + most, places.size());
     std::size_t inTheWay = 0;
-    std::size_t left =
-      0; // places that elements of the block leave; never fewer than are in the way
+    std::size_t left = 0; // places that elements of the block leave: as many, or more
     for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
     {
       if (targets[i] != None && targets[i] >= end)

@@ -115,6 +115,7 @@ void TestTwoOrders(std::size_t number)
 TEST(Renumbering, DependsOnThePointsAlone)
 {
   TestTwoOrders<3>(3000);
+  TestTwoOrders<3>(32000); // three blocks: what is in the way may be so twice
   TestTwoOrders<4>(400);
 }
 
