@@ -55,7 +55,7 @@ ManifoldLabels<D> ManifoldLabeller<D>::Repair(
   ManifoldLabels<D> made, GapOptions gaps, InterfaceStatistics& statistics)
 {
   const Simplices fresh = std::exchange(made.New, {});
-  Simplices given; // another label than Take() has given them
+  Simplices given; // labels by layers, pieces and ridges
   Simplices changed = fresh;
   const bool areFew = this->AreFew(changed);
   const auto add = [&](const Simplices& some)

@@ -310,7 +310,7 @@ public:
     return ball.Radius2 >= 0.0 ? ball : this->ComputeBallExactly(s);
   }
 
-  /** Frees states. Afterwards only vertices and simplices can be read. */
+  /** Frees states. Afterwards only vertices and simplices can be read, their labels, and whether they are alive. */
   void Freeze() { this->States.Clear(); }
 
   const Simplex& GetSimplex(SimplexId s) const { return this->Simplices[s]; }

@@ -45,6 +45,9 @@ struct TimePlanes
     return this->Periodic && (time == this->First || time == this->Last);
   }
 
+  /** Whether facets of this time are to be the same from both sides: on a plane, or at a periodic end. */
+  bool HaveFacetsAt(double time) const { return this->AreAt(time) || this->IsPeriodicEnd(time); }
+
   /** The number of the slab that a time lies in; a time on a plane lies in the slab after it. */
   std::size_t SlabAt(double time) const
   {

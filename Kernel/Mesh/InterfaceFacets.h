@@ -7,6 +7,7 @@
 #ifndef voxplex_InterfaceFacets_h
 #define voxplex_InterfaceFacets_h
 
+#include "Delaunay/Stores.h"
 #include "Image/LabelImage.h"
 #include "Parallel/ChunkCounts.h"
 #include "Parallel/ParallelFor.h"
@@ -59,7 +60,7 @@ void ForEachInterface(const std::array<std::uint32_t, N>& neighbours, LabelId la
 {
   for (unsigned i = 0; i < N; ++i)
   {
-    const bool isEnd = neighbours[i] == ~std::uint32_t{ 0 };
+    const bool isEnd = neighbours[i] == None;
     const LabelId beside = isEnd ? LabelId{ 0 } : labels[neighbours[i]];
     if (beside < label && (!isEnd || beyond == BeyondEnd::Background))
     {

@@ -58,21 +58,6 @@ public:
     return points;
   }
 
-  /** Tells the labels of elements. */
-  class LabelReader
-  {
-  public:
-    explicit LabelReader(const LabelledCells& elements)
-      : Of(elements)
-    {
-    }
-
-    LabelId operator()(std::size_t element) const { return this->Of.Labels[element]; }
-
-  private:
-    const LabelledCells& Of;
-  };
-
 private:
   const std::span<const Point<D>> Points;
   const std::span<const Cell<D>> Cells;

@@ -50,21 +50,6 @@ public:
     return this->Source.Points(this->Source.GetSimplex(static_cast<SimplexId>(element)).V);
   }
 
-  /** Tells the labels of elements; 0 if not in the mesh. */
-  class LabelReader
-  {
-  public:
-    explicit LabelReader(const LabelledTriangulation& elements)
-      : Of(elements)
-    {
-    }
-
-    LabelId operator()(std::size_t element) const { return this->Of.Labels[element]; }
-
-  private:
-    const LabelledTriangulation& Of;
-  };
-
 private:
   const Triangulation<D>& Source;
   const std::span<const LabelId> Labels;

@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace voxplex
 {
@@ -34,45 +36,27 @@ class MeshElements
 public:
   static constexpr int Dimension = D;
 
-  /** Both must outlive this object. */
+  /** Labels that the image does not have are 0. @param mesh must outlive this object */
   MeshElements(const SimplexMesh<D>& mesh, const LabelImage<D>& image)
     : Mesh(mesh)
-    , Image(image)
+    , Labels(mesh.Labels.size())
   {
+    for (std::size_t s = 0; s < this->Labels.size(); ++s)
+    {
+      this->Labels[s] = s > 0 && mesh.Labels[s] == mesh.Labels[s - 1]
+        ? this->Labels[s - 1]
+        : LabelIdOf(mesh.Labels[s], image);
+    }
   }
 
+  std::span<const LabelId> GetLabels() const { return this->Labels; }
   std::size_t Size() const { return this->Mesh.Simplices.size(); }
 
   auto PointsOf(std::size_t element) const { return this->Mesh.PointsOf(element); }
 
-  /** Tells the labels of elements; 0 for a value that the image does not have. */
-  class LabelReader
-  {
-  public:
-    explicit LabelReader(const MeshElements& elements)
-      : Of(elements)
-    {
-    }
-
-    LabelId operator()(std::size_t element)
-    {
-      if (this->Of.Mesh.Labels[element] != this->Value)
-      {
-        this->Value = this->Of.Mesh.Labels[element];
-        this->Label = LabelIdOf(this->Value, this->Of.Image);
-      }
-      return this->Label;
-    }
-
-  private:
-    const MeshElements& Of;
-    std::int64_t Value = 0;
-    LabelId Label = 0;
-  };
-
 private:
   const SimplexMesh<D>& Mesh;
-  const LabelImage<D>& Image;
+  std::vector<LabelId> Labels;
 };
 
 } // namespace voxplex

@@ -46,8 +46,7 @@ std::function<bool(SimplexId)> KeepsItsLabel(
     {
       return [&mesh, &planes](SimplexId s)
       {
-        return FacetOnPlane(mesh, s,
-          [&planes](double time) { return planes.AreAt(time) || planes.IsPeriodicEnd(time); })
+        return FacetOnPlane(mesh, s, [&planes](double time) { return planes.HaveFacetsAt(time); })
           .has_value();
       };
     }

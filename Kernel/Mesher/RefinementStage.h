@@ -66,8 +66,8 @@ public:
   virtual Triangulation<D>& Mesh() = 0;
   virtual const SizingField<D>& Sizing() const = 0;
   /**
-   * Call this if there is no more refinement. It frees what only that needs. Afterwards only the
-   * points and the simplices of the mesh can be read. It may do nothing.
+   * Call this if there is no more refinement. It frees what only that needs. Afterwards only vertices and
+   * simplices can be read, their labels, and whether they are alive. It may do nothing.
    */
   virtual void Finish() {}
 

@@ -283,8 +283,8 @@ void SlabRefinement::LabelAtPlanes()
     {
       continue;
     }
-    auto facet = FacetOnPlane(this->Whole, s,
-      [&](double time) { return planes.AreAt(time) || planes.IsPeriodicEnd(time); });
+    auto facet =
+      FacetOnPlane(this->Whole, s, [&](double time) { return planes.HaveFacetsAt(time); });
     if (!facet)
     {
       continue;

@@ -32,10 +32,9 @@ std::vector<std::uint8_t> ComponentGuard<D>::FindHolders(
     return holders;
   }
   std::vector<double> numbers(this->Image.Values().size()); // of elements, by label
-  typename LabelledCells<D>::LabelReader labelOf(elements);
-  for (std::size_t s = 0; s < elements.Size(); ++s)
+  for (const LabelId label : elements.GetLabels())
   {
-    ++numbers[labelOf(s)];
+    ++numbers[label];
   }
   for (Set& set : this->Sets)
   {

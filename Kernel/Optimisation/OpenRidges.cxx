@@ -5,6 +5,7 @@
 #include "Optimisation/Patch.h"
 #include "Optimisation/PieceShapes.h"
 #include "Parallel/ParallelFor.h"
+#include "Refinement/Rules/PlaneLabels.h"
 
 #include <algorithm>
 #include <array>
@@ -338,24 +339,14 @@ private:
   /** Whether a sector has a facet on a time plane, or on an end of a periodic mesh. */
   bool KeepsItsLabel(const Sector<D>& sector) const
   {
-    const TimePlanes& planes = this->Context.Planes;
-    if (D == 3 || !planes.Exist())
+    if constexpr (D == 4)
     {
-      return false;
-    }
-    const auto timeOf = [&](std::size_t i) { return this->Position(sector.Whole[i])[D - 1]; };
-    for (std::size_t i = 0; i < N; ++i)
-    {
-      const double time = timeOf(i == 0 ? 1 : 0);
-      bool isFlat = planes.AreAt(time) || planes.IsPeriodicEnd(time);
-      for (std::size_t k = 0; k < N && isFlat; ++k)
-      {
-        isFlat = k == i || timeOf(k) == time;
-      }
-      if (isFlat)
-      {
-        return true;
-      }
+      const TimePlanes& planes = this->Context.Planes;
+      return planes.Exist() &&
+        FacetOnPlane(
+          sector.Whole, [this](std::uint32_t v) { return this->Position(v)[3]; },
+          [&planes](double time) { return planes.HaveFacetsAt(time); })
+          .has_value();
     }
     return false;
   }

@@ -177,10 +177,10 @@ private:
       0, this->Of.Size(), ElementsAtOnce, this->Threads,
       [&](std::size_t begin, std::size_t end)
       {
-        typename Elements::LabelReader labelOf(this->Of);
+        const std::span<const LabelId> labels = this->Of.GetLabels();
         for (std::size_t s = begin; s < end; ++s)
         {
-          const LabelId label = labelOf(s);
+          const LabelId label = labels[s];
           if (isWanted[label] &&
             (this->WantsFirst || this->Missing[label].load(std::memory_order_relaxed) != 0))
           {

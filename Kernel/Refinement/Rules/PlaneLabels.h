@@ -22,22 +22,22 @@ using FacetVertices = std::array<VertexId, 4>;
 /**
  * The facet of a pentatope that lies in one time, if this is the time of a plane. A pentatope has one
  * such facet at most.
+ * @param timeOf gives the time of a vertex
  * @param isPlane tells whether a time is that of a plane
  */
-template <typename IsPlane>
+template <typename TimeOf, typename IsPlane>
 std::optional<FacetVertices> FacetOnPlane(
-  const Triangulation<4>& mesh, SimplexId s, const IsPlane& isPlane)
+  const std::array<VertexId, 5>& v, const TimeOf& timeOf, const IsPlane& isPlane)
 {
-  const auto& v = mesh.GetSimplex(s).V;
   // A facet has one of the first two vertices at least.
   for (unsigned i = 0; i < 2; ++i)
   {
-    const double time = mesh.Position(v[i])[3];
+    const double time = timeOf(v[i]);
     FacetVertices facet{};
     unsigned vertices = 0;
     for (const VertexId vertex : v)
     {
-      if (mesh.Position(vertex)[3] == time && vertices++ < 4)
+      if (timeOf(vertex) == time && vertices++ < 4)
       {
         facet[vertices - 1] = vertex;
       }
@@ -48,6 +48,14 @@ std::optional<FacetVertices> FacetOnPlane(
     }
   }
   return std::nullopt;
+}
+
+template <typename IsPlane>
+std::optional<FacetVertices> FacetOnPlane(
+  const Triangulation<4>& mesh, SimplexId s, const IsPlane& isPlane)
+{
+  return FacetOnPlane(
+    mesh.GetSimplex(s).V, [&mesh](VertexId v) { return mesh.Position(v)[3]; }, isPlane);
 }
 
 /**

@@ -356,11 +356,10 @@ TEST(LabelledTriangulation, HasTheElementsOfTheMesh)
     }
   }
   const LabelledTriangulation<3> elements(shuffled.Context->Mesh, labels);
-  LabelledTriangulation<3>::LabelReader labelOf(elements);
   std::vector<Element> found;
   for (std::size_t t = 0; t < elements.Size(); ++t)
   {
-    if (const LabelId label = labelOf(t); label != 0)
+    if (const LabelId label = elements.GetLabels()[t]; label != 0)
     {
       Element& element =
         found.emplace_back(PlainLabels().LabelValue(label), std::array<Point<3>, 4>{});
