@@ -67,7 +67,9 @@ std::array<std::int64_t, D> NearestIndex(const std::array<double, D>& place)
   std::array<std::int64_t, D> index;
   for (std::size_t a = 0; a < D; ++a)
   {
-    index[a] = std::llround(place[a]);
+    const auto towardsZero = static_cast<std::int64_t>(place[a]); // std::llround() is a call
+    const double rest = place[a] - static_cast<double>(towardsZero);
+    index[a] = towardsZero + (rest >= 0.5 ? 1 : rest <= -0.5 ? -1 : 0);
   }
   return index;
 }

@@ -120,7 +120,7 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, const Components<D
   const ElementVoxels<D> voxels(components, image);
   struct HeldVolume
   {
-    std::array<std::uint32_t, 2> Of; ///< piece, component
+    std::uint64_t Of; ///< 2^32 times the piece, plus the component
     double Volume;
   };
   std::vector<HeldVolume> held = ParallelCollect<HeldVolume>(
@@ -143,7 +143,7 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, const Components<D
             {
               return;
             }
-            const std::array of{ this->Numbers[s], c };
+            const std::uint64_t of = (std::uint64_t{ this->Numbers[s] } << 32) | c;
             if (found.empty() ||
               found.back().Of != of) // elements near each other have like numbers
             {
@@ -158,10 +158,10 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, const Components<D
     held.begin(), held.end(), [](const HeldVolume& a, const HeldVolume& b) { return a.Of < b.Of; });
   for (std::size_t k = 0; k < held.size(); ++k)
   {
-    auto& shares = this->List[held[k].Of[0]].Shares;
+    auto& shares = this->List[held[k].Of >> 32].Shares;
     if (k == 0 || held[k - 1].Of != held[k].Of)
     {
-      shares.emplace_back(held[k].Of[1], 0.0);
+      shares.emplace_back(static_cast<std::uint32_t>(held[k].Of), 0.0);
     }
     shares.back().second += held[k].Volume;
   }
