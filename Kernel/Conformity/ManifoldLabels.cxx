@@ -41,11 +41,11 @@ ManifoldLabels<D> ManifoldLabeller<D>::Take()
 {
   ManifoldLabels<D> made;
   made.New = this->TakeLabels();
-  if constexpr (D == 3) // in 4D no facet is too sharp
-  {
-    const Simplices taken = this->TakeBack();
-    made.New.insert(made.New.end(), taken.begin(), taken.end());
-  }
+  const auto given = std::stable_partition(made.New.begin(), made.New.end(),
+    [this](SimplexId s) { return !this->Source.State(s).Examined; });
+  const Simplices taken = this->TakeBack({ given, made.New.end() });
+  made.New.erase(given, made.New.end());
+  made.New.insert(made.New.end(), taken.begin(), taken.end());
   this->Mark(made.New);
   return made;
 }
@@ -65,8 +65,11 @@ ManifoldLabels<D> ManifoldLabeller<D>::Repair(
   };
   if (this->Options.Contacts)
   {
-    std::sort(changed.begin(), changed.end());
     const bool areMost = 2 * changed.size() > this->Labels.size();
+    if (!areMost)
+    {
+      std::sort(changed.begin(), changed.end());
+    }
     made.Layers = FindHiddenLayers<D>(this->Source, this->Labels, areMost ? nullptr : &changed,
       this->Options, this->Threads, this->Stop);
     add(ShowHiddenLayers<D>(
@@ -124,7 +127,10 @@ void ManifoldLabeller<D>::Mark(const Simplices& changed)
   }
 }
 
-/** Gives simplices that are not examined the labels at their circumcentres, and returns them. */
+/**
+ * Gives simplices that are not examined the labels at their circumcentres.
+ * @return those, and in 3D the examined ones that have other labels: a repair has given them
+ */
 template <int D>
 auto ManifoldLabeller<D>::TakeLabels() -> Simplices
 {
@@ -132,7 +138,7 @@ auto ManifoldLabeller<D>::TakeLabels() -> Simplices
   this->Labels.resize(ids);
   return ParallelCollect<SimplexId>(
     ids, Grain, this->Threads,
-    [&](std::size_t first, std::size_t last, Simplices& fresh)
+    [&](std::size_t first, std::size_t last, Simplices& some)
     {
       for (auto s = static_cast<SimplexId>(first); s < last; ++s)
       {
@@ -142,8 +148,12 @@ auto ManifoldLabeller<D>::TakeLabels() -> Simplices
         }
         else if (!this->Source.State(s).Examined)
         {
-          this->Labels[s] = LabelAtCentre(this->Source, *this->Options.Surfaces, s);
-          fresh.push_back(s);
+          this->Labels[s] = this->LabelAtCentre(s);
+          some.push_back(s);
+        }
+        else if (D == 3 && this->Labels[s] != this->LabelAtCentre(s)) // in 4D no facet is too sharp
+        {
+          some.push_back(s);
         }
       }
     },
@@ -154,27 +164,13 @@ auto ManifoldLabeller<D>::TakeLabels() -> Simplices
  * Takes labels back that repairs have given, where an interface facet is too sharp. Repairs do not make such a facet.
  * But refinement makes new ones beside the simplex, and takes junctions away. Its facet rule does not judge this one, since
  * the labels at both circumcentres are the same.
- * @return the simplices that have lost a label
+ * @param given the simplices with such labels
+ * @return those that have lost one
  */
 template <int D>
-auto ManifoldLabeller<D>::TakeBack() -> Simplices
+auto ManifoldLabeller<D>::TakeBack(const Simplices& given) -> Simplices
 {
   SimplexLabels& labels = this->Labels;
-  const auto atCentre = [this](SimplexId s)
-  { return LabelAtCentre(this->Source, *this->Options.Surfaces, s); };
-  const Simplices given = ParallelCollect<SimplexId>(
-    labels.size(), Grain, this->Threads,
-    [&](std::size_t first, std::size_t last, Simplices& some)
-    {
-      for (auto s = static_cast<SimplexId>(first); s < last; ++s)
-      {
-        if (this->Source.IsAlive(s) && labels[s] != atCentre(s))
-        {
-          some.push_back(s);
-        }
-      }
-    },
-    this->Stop);
   const repair::Neighbourhood<D> near(this->Source, labels);
   const repair::ChangeRules<D> rules(near, labels, this->Options);
   const auto isTooSharp = [&](SimplexId s)
@@ -183,7 +179,7 @@ auto ManifoldLabeller<D>::TakeBack() -> Simplices
     for (unsigned i = 0; i <= D; ++i)
     {
       if (beside[i] != None && labels[beside[i]] != labels[s] &&
-        atCentre(beside[i]) == atCentre(s) && !rules.HasGoodAngles(s, i, {}))
+        this->LabelAtCentre(beside[i]) == this->LabelAtCentre(s) && !rules.HasGoodAngles(s, i, {}))
       {
         return true;
       }
@@ -196,10 +192,10 @@ auto ManifoldLabeller<D>::TakeBack() -> Simplices
     isAgain = false;
     for (const SimplexId s : given)
     {
-      if (labels[s] != atCentre(s) && isTooSharp(s))
+      if (labels[s] != this->LabelAtCentre(s) && isTooSharp(s))
       {
         this->Source.State(s).Examined = false;
-        labels[s] = atCentre(s);
+        labels[s] = this->LabelAtCentre(s);
         taken.push_back(s);
         isAgain = true;
       }

@@ -84,7 +84,11 @@ private:
   using Simplices = std::vector<SimplexId>;
 
   Simplices TakeLabels();
-  Simplices TakeBack();
+  Simplices TakeBack(const Simplices& given);
+  LabelId LabelAtCentre(SimplexId s) const
+  {
+    return voxplex::LabelAtCentre(this->Source, *this->Options.Surfaces, s);
+  }
   bool AreFew(const Simplices& some) const;
   void Mark(const Simplices& changed);
   void Examine(const Simplices& fresh, const ManifoldLabels<D>& made);
