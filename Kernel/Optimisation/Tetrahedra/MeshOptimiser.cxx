@@ -11,7 +11,6 @@
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -411,68 +410,16 @@ double AngleOf(double signedSquare)
 }
 
 //------------------------------------------------------------------------------------------------
-/** Finds the bins of angles from their cosines times the absolute values, without arc cosines. */
-class AngleBins
-{
-public:
-  static constexpr std::size_t Number = ShapeStatistics::NumberOfBins;
-
-  AngleBins()
-  {
-    for (std::size_t bin = 0; bin < Number; ++bin)
-    {
-      const double cosine =
-        std::cos(static_cast<double>(bin) * (180.0 / Number) / DegreesPerRadian);
-      this->Begins[bin] = cosine * std::abs(cosine);
-    }
-    std::size_t bin = Number - 1;
-    for (std::size_t slot = 0; slot < Slots; ++slot)
-    {
-      const double last = 2.0 * static_cast<double>(slot + 1) / Slots - 1.0; // of the slot
-      while (bin > 0 && last > this->Begins[bin])
-      {
-        --bin;
-      }
-      this->FirstOf[slot] = bin;
-    }
-  }
-
-  std::size_t operator()(double signedSquare) const
-  {
-    const double slot = (0.5 * Slots) * (signedSquare + 1.0);
-    std::size_t bin =
-      this->FirstOf[slot > 0.0 ? std::min(static_cast<std::size_t>(slot), Slots - 1) : 0];
-    while (bin + 1 < Number && signedSquare <= this->Begins[bin + 1])
-    {
-      ++bin;
-    }
-    return bin;
-  }
-
-private:
-  static constexpr std::size_t Slots = 256; ///< of the interval -1 ... 1
-  std::array<double, Number> Begins{};      ///< the largest value of each bin
-  std::array<std::size_t, Slots> FirstOf{}; ///< the first bin in each slot
-};
-
-//------------------------------------------------------------------------------------------------
 /** Collects the shapes of tetrahedra. */
 class ShapeSurvey
 {
 public:
-  explicit ShapeSurvey(const AngleBins& bins)
-    : Bins(bins)
-  {
-  }
-
   void Add(const ShapeExtremes& shape, bool isPoor)
   {
     this->LargestCosine = std::max(this->LargestCosine, shape.LargestCosine);
     this->SmallestCosine = std::min(this->SmallestCosine, shape.SmallestCosine);
     this->EdgeRadiusRatio2 = std::min(this->EdgeRadiusRatio2, shape.EdgeRadiusRatio2);
-    this->Counts.Poor += isPoor ? 1 : 0;
-    ++this->Counts.SmallestAngles[this->Bins(shape.LargestCosine)];
-    ++this->Counts.LargestAngles[this->Bins(shape.SmallestCosine)];
+    this->Poor += isPoor ? 1 : 0;
   }
 
   void AddTo(ShapeStatistics& all) const
@@ -481,34 +428,27 @@ public:
     all.LargestDihedralAngle = std::max(all.LargestDihedralAngle, AngleOf(this->SmallestCosine));
     all.LargestRadiusEdgeRatio =
       std::max(all.LargestRadiusEdgeRatio, 1.0 / std::sqrt(this->EdgeRadiusRatio2));
-    all.Poor += this->Counts.Poor;
-    for (std::size_t bin = 0; bin < AngleBins::Number; ++bin)
-    {
-      all.SmallestAngles[bin] += this->Counts.SmallestAngles[bin];
-      all.LargestAngles[bin] += this->Counts.LargestAngles[bin];
-    }
+    all.Poor += this->Poor;
   }
 
 private:
-  const AngleBins& Bins;
   double LargestCosine = -1.0;
   double SmallestCosine = 1.0;
   double EdgeRadiusRatio2 = std::numeric_limits<double>::infinity();
-  ShapeStatistics Counts;
+  std::uint64_t Poor = 0;
 };
 
 /** Measures all tetrahedra, and scores them. */
 ShapeStatistics MeasureAndScore(
   TetrahedralComplex& complex, unsigned threads, const std::stop_token& stop)
 {
-  const AngleBins bins;
   ShapeStatistics all;
   std::mutex mutex;
   ParallelFor(
     0, complex.Cells.size(), SurveyGrain, threads,
     [&](std::size_t first, std::size_t last)
     {
-      ShapeSurvey part(bins);
+      ShapeSurvey part;
       for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
       {
         if (!complex.IsAlive(t))

@@ -13,8 +13,6 @@
 #include "Optimisation/Tetrahedra/Flips.h"
 #include "Optimisation/Tetrahedra/Smoother.h"
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <stop_token>
 
@@ -57,15 +55,10 @@ struct OptimisationOptions
 /** Shapes of a mesh's tetrahedra. */
 struct ShapeStatistics
 {
-  /** Bins of histograms, each 5 degrees wide. */
-  static constexpr std::size_t NumberOfBins = 36;
-
   double SmallestDihedralAngle = 180.0; ///< degrees; 180 if there are no tetrahedra
   double LargestDihedralAngle = 0.0;    ///< degrees; 0 if there are no tetrahedra
   double LargestRadiusEdgeRatio = 0.0;  ///< infinite if a tetrahedron is flat; 0 if there are none
   std::uint64_t Poor = 0;               ///< tetrahedra that violate a bound
-  std::array<std::uint64_t, NumberOfBins> SmallestAngles{}; ///< tetrahedra by their smallest angle
-  std::array<std::uint64_t, NumberOfBins> LargestAngles{};  ///< tetrahedra by their largest angle
 };
 
 struct OptimisationStatistics
