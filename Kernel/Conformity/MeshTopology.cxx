@@ -76,7 +76,7 @@ void ComparePieces(const LabelledCells<D>& elements, const Components<D>& compon
   const LabelImage<D>& image, const std::vector<bool>& wanted, ComponentStatistics& statistics,
   unsigned threads, const std::stop_token& stop)
 {
-  const ComponentPieces<D> pieces(elements, components, image, threads, stop);
+  const ComponentPieces<D> pieces(elements, components, image, PieceShares::OfAll, threads, stop);
   const double voxel = image.Grid().VoxelVolume();
   std::map<std::uint32_t, std::map<std::uint32_t, double>> volumes; // of components' pieces
   statistics.United.clear();

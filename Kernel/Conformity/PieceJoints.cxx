@@ -51,7 +51,8 @@ public:
     , Gaps(gaps)
     , Near(triangulation, labels)
     , Rules(this->Near, labels, options)
-    , Pieces(LabelledTriangulation<D>(triangulation, labels), Of.All, Of.Image, threads, stop)
+    , Pieces(LabelledTriangulation<D>(triangulation, labels), Of.All, Of.Image, PieceShares::OfSome,
+        threads, stop)
     , Joined(this->Pieces.All().size())
     , Stop(stop)
   {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -21,6 +22,9 @@ namespace
 {
 
 constexpr std::size_t Grain = 65536;
+
+/** So many elements of a piece at least are looked at, whatever its shares are found from. */
+constexpr std::size_t Enough = 1024;
 
 /** A facet without its smallest vertex, and an element that has it. */
 struct SortedFacet
@@ -86,7 +90,7 @@ DisjointSets FindPieces(const Elements& elements, unsigned threads, const std::s
 template <int D>
 template <typename Elements>
 ComponentPieces<D>::ComponentPieces(const Elements& elements, const Components<D>& components,
-  const LabelImage<D>& image, unsigned threads, const std::stop_token& stop)
+  const LabelImage<D>& image, PieceShares shares, unsigned threads, const std::stop_token& stop)
   : Numbers(elements.Size(), None)
 {
   DisjointSets pieces = FindPieces(elements, threads, stop);
@@ -133,6 +137,12 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, const Components<D
         {
           continue;
         }
+        const std::size_t all = this->List[this->Numbers[s]].Size;
+        if (shares == PieceShares::OfSome && all >= 2 * Enough &&
+          (s & (std::bit_floor(all / Enough) - 1)) != 0)
+        {
+          continue; // elements near each other have like numbers, so the others are everywhere
+        }
         const auto corners = elements.PointsOf(s);
         const double volume = std::abs(SignedVolume<D>(corners.data()));
         voxels.ForEachVoxel(corners,
@@ -158,12 +168,12 @@ ComponentPieces<D>::ComponentPieces(const Elements& elements, const Components<D
     held.begin(), held.end(), [](const HeldVolume& a, const HeldVolume& b) { return a.Of < b.Of; });
   for (std::size_t k = 0; k < held.size(); ++k)
   {
-    auto& shares = this->List[held[k].Of >> 32].Shares;
+    auto& found = this->List[held[k].Of >> 32].Shares;
     if (k == 0 || held[k - 1].Of != held[k].Of)
     {
-      shares.emplace_back(static_cast<std::uint32_t>(held[k].Of), 0.0);
+      found.emplace_back(static_cast<std::uint32_t>(held[k].Of), 0.0);
     }
-    shares.back().second += held[k].Volume;
+    found.back().second += held[k].Volume;
   }
   for (Piece& piece : this->List)
   {
@@ -239,12 +249,12 @@ template DisjointSets FindPieces(const LabelledCells<4>&, unsigned, const std::s
 template class ComponentPieces<3>;
 template class ComponentPieces<4>;
 template ComponentPieces<3>::ComponentPieces(const LabelledTriangulation<3>&, const Components<3>&,
-  const LabelImage<3>&, unsigned, const std::stop_token&);
+  const LabelImage<3>&, PieceShares, unsigned, const std::stop_token&);
 template ComponentPieces<4>::ComponentPieces(const LabelledTriangulation<4>&, const Components<4>&,
-  const LabelImage<4>&, unsigned, const std::stop_token&);
+  const LabelImage<4>&, PieceShares, unsigned, const std::stop_token&);
 template ComponentPieces<3>::ComponentPieces(const LabelledCells<3>&, const Components<3>&,
-  const LabelImage<3>&, unsigned, const std::stop_token&);
+  const LabelImage<3>&, PieceShares, unsigned, const std::stop_token&);
 template ComponentPieces<4>::ComponentPieces(const LabelledCells<4>&, const Components<4>&,
-  const LabelImage<4>&, unsigned, const std::stop_token&);
+  const LabelImage<4>&, PieceShares, unsigned, const std::stop_token&);
 
 } // namespace voxplex

@@ -45,6 +45,13 @@ DisjointSets FindPieces(
 std::map<std::int64_t, std::uint64_t> CountFragments(
   const SimplexMesh<3>& mesh, const std::stop_token& stop = {});
 
+/** How the shares of a piece are found (ComponentPieces). */
+enum class PieceShares
+{
+  OfAll, ///< from all of its elements
+  OfSome ///< if it is large, from 1,024 or more of them: enough to tell which component has the largest
+};
+
 /**
  * @brief The pieces of a mesh, and the connected components of the image that they are parts of.
  *
@@ -75,7 +82,8 @@ public:
    */
   template <typename Elements>
   ComponentPieces(const Elements& elements, const Components<D>& components,
-    const LabelImage<D>& image, unsigned threads = 1, const std::stop_token& stop = {});
+    const LabelImage<D>& image, PieceShares shares = PieceShares::OfAll, unsigned threads = 1,
+    const std::stop_token& stop = {});
 
   const std::vector<Piece>& All() const { return this->List; }
 
