@@ -217,12 +217,28 @@ bool LabelContacts<D>::TouchNear(
       low[k] = static_cast<std::int64_t>(std::floor(index[k])) - by;
       high[k] = low[k] + 1 + 2 * by;
     }
-    if (this->TouchInBox(low, high, a, b))
+    if (most == 0.0 ? this->AreInBox(low, high, a, b) : this->TouchInBox(low, high, a, b))
     {
       return true;
     }
   }
   return false;
+}
+
+/** The voxels of a box touch each other if there are two along each axis. */
+template <int D>
+bool LabelContacts<D>::AreInBox(const Index& low, const Index& high, LabelId a, LabelId b) const
+{
+  bool isA = false;
+  bool isB = false;
+  ForEachIndex(low, high,
+    [&](const Index& voxel)
+    {
+      const LabelId label = this->Image.At(voxel);
+      isA = isA || label == a;
+      isB = isB || label == b;
+    });
+  return isA && isB;
 }
 
 template <int D>

@@ -88,6 +88,7 @@ private:
 
   /** The voxel of a label nearest to a point, if there is one in or beside the point's voxel. */
   std::optional<Index> VoxelOf(LabelId label, const Point<D>& p) const;
+  bool AreInBox(const Index& low, const Index& high, LabelId a, LabelId b) const;
   bool TouchInBox(const Index& low, const Index& high, LabelId a, LabelId b) const;
 
   const LabelImage<D>& Image;
