@@ -160,25 +160,37 @@ bool Patch<D>::Replace(std::span<const std::uint32_t> old, std::span<const NewCe
 }
 
 template <int D>
-bool Patch<D>::Move(const VertexStar<D>& star, const Point<D>& to,
+bool Patch<D>::Move(std::uint32_t v, const Point<D>& to, std::span<const std::uint32_t> cells,
   std::span<const typename Complex<D>::ScoreValue> scores)
 {
-  for (const std::uint32_t t : star.Cells)
+  const std::uint32_t twin = this->Target.TwinOf(v);
+  Point<D> twinTo = to;
+  if (twin != None)
   {
-    if (!this->Target.KeepsComponents(t, star.Vertex, to))
+    twinTo[D - 1] = this->Target.Points[twin][D - 1];
+  }
+  for (const std::uint32_t t : cells)
+  {
+    const Vertices& corners = this->Target.Cells[t].V;
+    const bool isAtTwin = std::find(corners.begin(), corners.end(), v) == corners.end();
+    if (!this->Target.KeepsComponents(t, isAtTwin ? twin : v, isAtTwin ? twinTo : to))
     {
       return false;
     }
   }
   ++this->Clock;
-  this->Target.Points[star.Vertex] = to;
-  for (std::size_t k = 0; k < star.Cells.size(); ++k)
+  this->Target.Points[v] = to;
+  if (twin != None)
   {
-    this->Touch(star.Corners[k]);
-    this->Target.Scores[star.Cells[k]] = scores[k];
+    this->Target.Points[twin] = twinTo;
+  }
+  for (std::size_t k = 0; k < cells.size(); ++k)
+  {
+    this->Touch(this->Target.Cells[cells[k]].V);
+    this->Target.Scores[cells[k]] = scores[k];
     if (scores[k] < this->Target.Goal)
     {
-      this->Poor.push_back(star.Cells[k]);
+      this->Poor.push_back(cells[k]);
     }
   }
   return true;

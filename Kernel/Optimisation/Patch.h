@@ -73,13 +73,14 @@ public:
 
   const Complex<D>& Mesh() const { return this->Target; }
 
+  /** Whether a vertex is in the block. */
+  bool Has(std::uint32_t v) const { return this->Blocks.empty() || this->Blocks[v] == this->Block; }
+
   /** Whether t may be changed or deleted. */
   bool MayChange(std::uint32_t t) const
   {
     const Vertices& v = this->Target.Cells[t].V;
-    return this->Blocks.empty() ||
-      std::all_of(
-        v.begin(), v.end(), [this](std::uint32_t w) { return this->Blocks[w] == this->Block; });
+    return std::all_of(v.begin(), v.end(), [this](std::uint32_t w) { return this->Has(w); });
   }
 
   /**
@@ -97,10 +98,11 @@ public:
   bool Replace(std::span<const std::uint32_t> old, std::span<const NewCell<D>> fresh);
 
   /**
-   * Moves the vertex of a star. The scores of the star become `scores`.
+   * Moves a vertex, and its twin, whose time stays.
+   * @param cells of the object that are around both, whose scores become `scores`
    * @return false, with nothing changed, if a component would be lost
    */
-  bool Move(const VertexStar<D>& star, const Point<D>& to,
+  bool Move(std::uint32_t v, const Point<D>& to, std::span<const std::uint32_t> cells,
     std::span<const typename Complex<D>::ScoreValue> scores);
 
   /** Sets the slots of dead cells that new ones may take, the last one first. */

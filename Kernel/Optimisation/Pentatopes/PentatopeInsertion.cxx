@@ -51,7 +51,6 @@ PentatopeInsertion PentatopeCavity::Find(std::uint32_t s, double target)
     return p;
   };
   PentatopeInsertion best;
-  this->Seen.clear();
   for (const double share : { 0.0, 1.0, 0.5 })
   {
     this->Try(s, between(centroid, centre, share), target, best);
@@ -60,7 +59,6 @@ PentatopeInsertion PentatopeCavity::Find(std::uint32_t s, double target)
   {
     this->Try(s, between(centroid, *corners[k], -0.5), target, best);
   }
-  best.Seen = this->Seen;
   return best;
 }
 
@@ -95,16 +93,11 @@ void PentatopeCavity::Try(std::uint32_t s, Point<4> p, double target, PentatopeI
 void PentatopeCavity::Add(std::uint32_t s)
 {
   this->Cavity.push_back(s);
-  this->Seen.push_back(s);
   this->Before = std::min(this->Before, this->Mesh.Scores[s]);
   const PentatopeComplex::Vertices& corners = this->Mesh.Cells[s].V;
   for (unsigned i = 0; i < 5; ++i)
   {
     const std::uint32_t behind = this->Mesh.Cells[s].N[i];
-    if (behind != None)
-    {
-      this->Seen.push_back(behind);
-    }
     const auto common = std::find_if(this->Facets.begin(), this->Facets.end(),
       [&](const BoundaryFacet& facet) { return facet.Inside == behind && facet.Behind == s; });
     if (common != this->Facets.end())
@@ -116,7 +109,7 @@ void PentatopeCavity::Add(std::uint32_t s)
     facet.Inside = s;
     facet.Opposite = i;
     const bool mayOpen = behind != None && this->Mesh.LabelOf(behind) == this->Mesh.LabelOf(s) &&
-      !this->Rules.IsOnPlane(this->Mesh, s, i);
+      this->Target.MayChange(behind) && !this->Rules.IsOnPlane(this->Mesh, s, i);
     facet.Behind = mayOpen ? behind : None;
     for (std::size_t k = 0, m = 0; k < 5; ++k)
     {

@@ -25,7 +25,6 @@ struct PentatopeInsertion
   Point<4> Place{};                            ///< of the new vertex
   double Before = 0.0;                         ///< smallest quality of the old ones
   double After = 0.0;                          ///< smallest quality of the new ones
-  std::vector<std::uint32_t> Seen; ///< as long as these are as they were, it is the best; repeated
 };
 
 /**
@@ -39,8 +38,10 @@ struct PentatopeInsertion
 class PentatopeCavity
 {
 public:
-  PentatopeCavity(const PentatopeComplex& complex, const PentatopeRules& rules)
-    : Mesh(complex)
+  /** Both must outlive this object. */
+  PentatopeCavity(const Patch<4>& patch, const PentatopeRules& rules)
+    : Target(patch)
+    , Mesh(patch.Mesh())
     , Rules(rules)
   {
   }
@@ -73,11 +74,11 @@ private:
   bool IsAllowed(const Point<4>& p) const;
   PentatopeInsertion Result(const Point<4>& p, double worth) const;
 
+  const Patch<4>& Target;
   const PentatopeComplex& Mesh;
   const PentatopeRules& Rules;
   std::vector<std::uint32_t> Cavity;
   std::vector<BoundaryFacet> Facets;
-  std::vector<std::uint32_t> Seen;
   double Before = 0.0;
 };
 

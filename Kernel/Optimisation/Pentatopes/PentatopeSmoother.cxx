@@ -64,13 +64,9 @@ Point<4> Along(const Point<4>& p, const Point<4>& direction, double step)
 } // namespace
 
 //------------------------------------------------------------------------------------------------
-bool PentatopeSmoother::RaiseWorst(std::uint32_t v, double target, double tolerance)
+bool PentatopeSmoother::RaiseWorst(double target, double tolerance)
 {
   this->Tolerance = tolerance;
-  if (!this->Begin(v))
-  {
-    return false;
-  }
   double quality = this->Smallest();
   bool moved = false;
   double step = FirstStep * this->Star.ShortestEdge();
@@ -81,14 +77,14 @@ bool PentatopeSmoother::RaiseWorst(std::uint32_t v, double target, double tolera
   std::size_t share = 0;
   for (unsigned k = 0; k < most && step >= shortest && quality < target; ++k)
   {
-    const Point<4> here = this->Target.Points[v];
+    const Point<4> here = this->Here;
     Point<4> direction = this->GradientOfWorst(here, (1.0 + Shares[share]) * quality);
     this->Project(direction);
     const bool leads = Dot(direction, direction) > 0.0;
     const Point<4> p = leads ? Along(here, direction, step) : here;
-    if (leads && this->MayMoveTo(v, p) && this->Try(p, quality))
+    if (leads && this->MayMoveTo(p) && this->Try(p, quality))
     {
-      this->Take(v, p);
+      this->Take(p);
       quality = this->Smallest();
       moved = true;
     }
@@ -98,20 +94,12 @@ bool PentatopeSmoother::RaiseWorst(std::uint32_t v, double target, double tolera
       step *= share == 0 ? 0.5 : 1.0;
     }
   }
-  if (moved)
-  {
-    this->Finish();
-  }
-  return moved;
+  return moved && this->Finish();
 }
 
-bool PentatopeSmoother::RaiseSum(std::uint32_t v, double floor)
+bool PentatopeSmoother::RaiseSum(double floor)
 {
   this->Tolerance = 0.0;
-  if (!this->Begin(v))
-  {
-    return false;
-  }
   const auto sum = [](double total, double quality) { return total + WorthOf(quality); };
   double worth = 0.0;
   double smallest = 1.0;
@@ -125,7 +113,7 @@ bool PentatopeSmoother::RaiseSum(std::uint32_t v, double floor)
   double step = FirstStepOfSum * this->Star.ShortestEdge();
   for (unsigned k = 0; k < MostStepsOfSum; ++k)
   {
-    const Point<4> here = this->Target.Points[v];
+    const Point<4> here = this->Here;
     Point<4> direction = this->GradientOfSum(here);
     this->Project(direction);
     if (!(Dot(direction, direction) > 0.0))
@@ -134,13 +122,13 @@ bool PentatopeSmoother::RaiseSum(std::uint32_t v, double floor)
     }
     const Point<4> p = Along(here, direction, step);
     double worthThere = 0.0;
-    if (this->MayMoveTo(v, p) && this->Try(p, floor))
+    if (this->MayMoveTo(p) && this->Try(p, floor))
     {
       worthThere = std::accumulate(this->Tried.begin(), this->Tried.end(), 0.0, sum);
     }
     if (worthThere > worth)
     {
-      this->Take(v, p);
+      this->Take(p);
       worth = worthThere;
       moved = true;
       step *= Longer;
@@ -150,54 +138,50 @@ bool PentatopeSmoother::RaiseSum(std::uint32_t v, double floor)
       step *= Shorter;
     }
   }
-  if (moved)
-  {
-    this->Finish();
-  }
-  return moved;
+  return moved && this->Finish();
 }
 
-/** Returns false if no pentatope of the mesh is around the vertex, or some may not be known. */
-bool PentatopeSmoother::Begin(std::uint32_t v)
+bool PentatopeSmoother::Start(std::uint32_t v)
 {
-  this->Start = this->Target.Points[v];
-  if (this->Limits.HasTwin(this->Start) && this->Target.TwinOf(v) == None)
+  this->Vertex = v;
+  this->First = this->Here = this->Mesh.Points[v];
+  if ((this->Limits.HasTwin(this->First) && this->Mesh.TwinOf(v) == None) ||
+    !this->Star.Gather(this->Target, v) || this->Star.Inside().empty())
   {
     return false;
   }
-  const bool isWhole = this->Star.Gather(this->Target, v);
   this->Tried.resize(this->Star.Inside().size());
   this->FirstTried = 0;
-  this->GatherNormals(v);
-  return isWhole && !this->Tried.empty();
+  this->GatherNormals();
+  return true;
 }
 
-void PentatopeSmoother::GatherNormals(std::uint32_t v)
+void PentatopeSmoother::GatherNormals()
 {
   this->Normals.clear();
   this->FacetNormals.clear();
-  const std::uint32_t twin = this->Target.TwinOf(v);
-  this->IsOnInterface = this->Target.Kinds[v] != VertexRole::Free ||
-    (twin != None && this->Target.Kinds[twin] != VertexRole::Free);
+  const std::uint32_t twin = this->Mesh.TwinOf(this->Vertex);
+  this->IsOnInterface = this->Mesh.Kinds[this->Vertex] != VertexRole::Free ||
+    (twin != None && this->Mesh.Kinds[twin] != VertexRole::Free);
   if (!this->IsOnInterface)
   {
     return;
   }
-  const bool keepsTime = this->Limits.KeepsTime(this->Start);
+  const bool keepsTime = this->Limits.KeepsTime(this->First);
   // The outer products of the normals over their areas, which are as long as the normals.
   std::array<Point<4>, 4> sum{};
   double total = 0.0;
   for (const MovedPentatope& one : this->Star.Inside())
   {
-    const PentatopeComplex::Cell& cell = this->Target.Cells[one.Id];
+    const PentatopeComplex::Cell& cell = this->Mesh.Cells[one.Id];
     for (unsigned i = 0; i < 5; ++i)
     {
-      if (cell.V[i] == one.Vertex || this->Target.LabelOf(cell.N[i]) >= one.Label)
+      if (cell.V[i] == one.Vertex || this->Mesh.LabelOf(cell.N[i]) >= one.Label)
       {
         continue; // no facet of an interface, or counted from the other side
       }
       const auto corner = [&](unsigned k) -> const Point<4>&
-      { return this->Target.PointOf(one.Id, (i + k) % 5); };
+      { return this->Mesh.PointOf(one.Id, (i + k) % 5); };
       Point<4> normal = Cross(Subtract(corner(2), corner(1)), Subtract(corner(3), corner(1)),
         Subtract(corner(4), corner(1)));
       normal[3] = keepsTime ? 0.0 : normal[3]; // such a vertex moves in space only
@@ -257,8 +241,8 @@ void PentatopeSmoother::Project(Point<4>& direction) const
       direction[a] -= part * this->Normals[k][a];
     }
   }
-  if ((this->IsOnInterface && this->Limits.KeepsTime(this->Start)) ||
-    this->Limits.IsOnPlane(this->Start))
+  if ((this->IsOnInterface && this->Limits.KeepsTime(this->First)) ||
+    this->Limits.IsOnPlane(this->First))
   {
     direction[3] = 0.0;
   }
@@ -307,13 +291,13 @@ Point<4> PentatopeSmoother::GradientOfSum(const Point<4>& p)
   return sum;
 }
 
-bool PentatopeSmoother::MayMoveTo(std::uint32_t v, const Point<4>& p) const
+bool PentatopeSmoother::MayMoveTo(const Point<4>& p) const
 {
   if (!this->IsOnInterface)
   {
     return true;
   }
-  const Point<4> moved = Subtract(p, this->Originals[v]);
+  const Point<4> moved = Subtract(p, this->Originals[this->Vertex]);
   const double farthest = LongestMove * this->Star.ShortestEdge();
   const bool isTolerated = this->Tolerance == 0.0 ||
     std::all_of(this->Normals.begin(), this->Normals.end(),
@@ -342,7 +326,7 @@ bool PentatopeSmoother::Try(const Point<4>& p, double floor)
            [&p](MovedPentatope& one) { return one.Measured().VolumeAt(p) > one.Quality; }) &&
     std::all_of(inside.begin(), inside.end(),
       [&](const MovedPentatope& one)
-      { return this->Target.KeepsComponents(one.Id, one.Vertex, one.PlaceOf(p)); });
+      { return this->Mesh.KeepsComponents(one.Id, one.Vertex, one.PlaceOf(p)); });
 }
 
 bool PentatopeSmoother::Allows(MovedPentatope& one, const PentatopeShape& shape) const
@@ -353,31 +337,31 @@ bool PentatopeSmoother::Allows(MovedPentatope& one, const PentatopeShape& shape)
   }
   if (one.OldRatio < 0.0)
   {
-    one.OldRatio = one.ShapeAt(this->Start).Ratio;
+    one.OldRatio = one.ShapeAt(this->First).Ratio;
   }
   return this->Rules.Allows(shape, one.OldRatio, one.Label);
 }
 
-void PentatopeSmoother::Take(std::uint32_t v, const Point<4>& p)
+void PentatopeSmoother::Take(const Point<4>& p)
 {
-  this->Target.Points[v] = p;
-  if (const std::uint32_t twin = this->Target.TwinOf(v); twin != None)
-  {
-    Point<4>& other = this->Target.Points[twin];
-    other = { p[0], p[1], p[2], other[3] };
-  }
+  this->Here = p;
   for (std::size_t s = 0; s < this->Tried.size(); ++s)
   {
     this->Star.Inside()[s].Quality = this->Tried[s];
   }
 }
 
-void PentatopeSmoother::Finish() const
+/** Moves the vertex to Here. Returns false if it stays. */
+bool PentatopeSmoother::Finish()
 {
+  this->Ids.clear();
+  this->Tried.clear();
   for (const MovedPentatope& one : this->Star.Inside())
   {
-    this->Target.Scores[one.Id] = one.Quality;
+    this->Ids.push_back(one.Id);
+    this->Tried.push_back(one.Quality);
   }
+  return this->Target.Move(this->Vertex, this->Here, this->Ids, this->Tried);
 }
 
 } // namespace voxplex

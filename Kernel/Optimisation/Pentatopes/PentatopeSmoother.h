@@ -34,49 +34,50 @@ class PentatopeSmoother
 {
 public:
   /** @param originals the points before any were moved */
-  PentatopeSmoother(PentatopeComplex& complex, const PentatopeRules& rules,
-    const MoveLimits<4>& limits, std::span<const Point<4>> originals)
-    : Target(complex)
+  PentatopeSmoother(Patch<4>& patch, const PentatopeRules& rules, const MoveLimits<4>& limits,
+    std::span<const Point<4>> originals)
+    : Target(patch)
+    , Mesh(patch.Mesh())
     , Rules(rules)
     , Limits(limits)
     , Originals(originals)
   {
   }
 
+  /** Begins with a vertex. Returns false if it does not move, or not in this patch. */
+  bool Start(std::uint32_t v);
+
   /**
-   * Moves a vertex of the mesh until no pentatope around it is below the target, or no step helps.
+   * Moves the vertex until no pentatope around it is below the target, or no step helps.
    * The measure is the smallest quality. Returns whether it has moved. Changes the qualities of the
    * pentatopes around it.
    * @param tolerance how far, in all, it may move along normals of interfaces. If it is not 0, more
    *   directions are tried.
    */
-  bool RaiseWorst(std::uint32_t v, double target, double tolerance);
+  bool RaiseWorst(double target, double tolerance);
 
   /**
-   * Moves a vertex of the mesh by a few steps. The measure is the sum of q (2 - q) for the qualities q,
+   * Moves the vertex by a few steps. The measure is the sum of q (2 - q) for the qualities q,
    * which counts the gain of a poor pentatope more than that of a good one. No quality falls below
    * `floor`, or below the smallest one before.
    */
-  bool RaiseSum(std::uint32_t v, double floor);
-
-  /** The pentatopes around the vertex that was tried last, and its twin. */
-  std::span<const MovedPentatope> Around() const { return this->Star.Both(); }
+  bool RaiseSum(double floor);
 
 private:
-  bool Begin(std::uint32_t v);
-  void GatherNormals(std::uint32_t v);
+  void GatherNormals();
   Point<4> SumOfNormals(const Point<4>& side) const;
   void Project(Point<4>& direction) const;
   double Smallest() const;
   Point<4> GradientOfWorst(const Point<4>& p, double below);
   Point<4> GradientOfSum(const Point<4>& p);
-  bool MayMoveTo(std::uint32_t v, const Point<4>& p) const;
+  bool MayMoveTo(const Point<4>& p) const;
   bool Allows(MovedPentatope& one, const PentatopeShape& shape) const;
   bool Try(const Point<4>& p, double floor);
-  void Take(std::uint32_t v, const Point<4>& p);
-  void Finish() const;
+  void Take(const Point<4>& p);
+  bool Finish();
 
-  PentatopeComplex& Target;
+  Patch<4>& Target;
+  const PentatopeComplex& Mesh;
   const PentatopeRules& Rules;
   const MoveLimits<4>& Limits;
   const std::span<const Point<4>> Originals;
@@ -88,7 +89,10 @@ private:
   std::size_t FirstTried = 0;    ///< what failed at one point is likely to fail at the next one
   bool IsOnInterface = false;
   double Tolerance = 0.0;
-  Point<4> Start{};
+  std::uint32_t Vertex = 0;
+  Point<4> First{};               ///< where it was
+  Point<4> Here{};                ///< where it is to be
+  std::vector<std::uint32_t> Ids; ///< of the pentatopes of the mesh around it
 };
 
 } // namespace voxplex

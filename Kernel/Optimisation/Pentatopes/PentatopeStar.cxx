@@ -122,18 +122,16 @@ Point<4> MovedPentatope::GradientAt(const Point<4>& p) const
 }
 
 //------------------------------------------------------------------------------------------------
-bool PentatopeStar::Gather(const PentatopeComplex& complex, std::uint32_t v)
+bool PentatopeStar::Gather(const Patch<4>& patch, std::uint32_t v)
 {
+  const PentatopeComplex& complex = patch.Mesh();
   this->All.clear();
   this->Shortest = std::numeric_limits<double>::infinity(); // squared, until all are there
   const std::uint32_t twin = complex.TwinOf(v);
-  const auto everywhere = [](std::uint32_t) { return true; };
-  bool isWhole = true;
-  for (std::size_t k = 0; k < (twin == None ? 1 : 2); ++k)
+  if (!patch.GatherStar(v, this->Stars[0]) ||
+    (twin != None && !patch.GatherStar(twin, this->Stars[1])))
   {
-    const std::uint32_t of = k == 0 ? v : twin;
-    complex.GatherStar(of, this->Stars[k], everywhere);
-    isWhole = isWhole && this->Stars[k].Cells.size() == complex.Degrees[of];
+    return false;
   }
   for (const bool inside : { true, false })
   {
@@ -152,7 +150,7 @@ bool PentatopeStar::Gather(const PentatopeComplex& complex, std::uint32_t v)
     this->NumberInside = inside ? this->All.size() : this->NumberInside;
   }
   this->Shortest = std::sqrt(this->Shortest);
-  return isWhole;
+  return true;
 }
 
 /** @param corners the vertex first */

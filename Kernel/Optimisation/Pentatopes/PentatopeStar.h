@@ -8,7 +8,7 @@
 #define voxplex_PentatopeStar_h
 
 #include "Base/UninitialisedVector.h"
-#include "Optimisation/Complex.h"
+#include "Optimisation/Patch.h"
 
 #include <array>
 #include <cstddef>
@@ -85,9 +85,9 @@ class PentatopeStar
 public:
   /**
    * Gathers the star of a vertex. All of its pentatopes must be positively oriented.
-   * @return false if pieces of the star share no facet, so that some may be missing
+   * @return false if some of them may not be changed, or are missing (Patch::GatherStar)
    */
-  bool Gather(const PentatopeComplex& complex, std::uint32_t v);
+  bool Gather(const Patch<4>& patch, std::uint32_t v);
 
   std::span<MovedPentatope> Inside() { return { this->All.data(), this->NumberInside }; }
   std::span<const MovedPentatope> Inside() const

@@ -3,22 +3,23 @@
 #include "Optimisation/Tetrahedra/MeshOptimiser.h"
 
 #include "Base/Error.h"
+#include "Optimisation/BlockSchedule.h"
 #include "Optimisation/Complex.h"
+#include "Optimisation/PatchWorker.h"
 #include "Optimisation/Tetrahedra/InterfaceRules.h"
-#include "Optimisation/Tetrahedra/PatchWorker.h"
 #include "Optimisation/Tetrahedra/Rooms.h"
-#include "Optimisation/Tetrahedra/VertexBoxes.h"
-#include "Parallel/ParallelFor.h"
+#include "Optimisation/Tetrahedra/TetrahedronImprover.h"
+#include "Parallel/ParallelCollect.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <mutex>
-#include <numeric>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace voxplex
@@ -30,11 +31,10 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t SurveyGrain = 16384;
-/** Vertices of a block. In larger blocks, fewer tetrahedra lie between blocks. */
-constexpr std::size_t VerticesOfBlock = 4000;
-constexpr std::size_t MostBlocks = 256;
 /** The most vertices that are inserted for one poor tetrahedron. */
 constexpr std::size_t SparePerPoor = 8;
+/** Slots for the tetrahedra that insertions make more. */
+constexpr std::size_t SlotsPerPoor = 32;
 /**
  * Passes over one block. A pass also works on tetrahedra that become poor in it, so more passes are
  * seldom needed.
@@ -84,14 +84,6 @@ ShapeScore ScoreOf(const OptimisationOptions& options)
     options.Shape.RadiusEdgeRatio };
 }
 
-/**
- * Edge removal needs additional slots for rings of six and more. Otherwise it mostly frees slots.
- */
-std::size_t SpareCells(std::uint64_t poor)
-{
-  return static_cast<std::size_t>(poor) + 64 * MostBlocks;
-}
-
 //------------------------------------------------------------------------------------------------
 /** The stages of one optimisation. */
 class Optimisation
@@ -107,6 +99,7 @@ public:
     , Threads(threads)
     , Limits(limits)
     , Statistics(statistics)
+    , Schedule(complex, threads, limits.Stop)
   {
     for (std::uint32_t t = 0; t < this->Mesh.Cells.size(); ++t)
     {
@@ -115,214 +108,112 @@ public:
         this->Poor.push_back(t);
       }
     }
-    const auto cells = static_cast<std::uint32_t>(this->Mesh.Cells.size());
-    this->Mesh.AddCells(SpareCells(this->Poor.size()));
-    for (auto slot = static_cast<std::uint32_t>(this->Mesh.Cells.size()); slot-- > cells;)
-    {
-      this->Slots.push_back(slot);
-    }
   }
 
   void Run()
   {
-    const std::size_t blocks =
-      std::clamp<std::size_t>(this->Mesh.Points.size() / VerticesOfBlock, 1, MostBlocks);
-    if (blocks > 1)
+    this->WorkInTiles(
+      Effort::Plain); // most of the poor ones go, so that few vertices need room afterwards
+    this->WorkInTiles(Effort::Insertions);
+    this->WorkOnAll(Effort::Insertions);
+    this->WorkOnAll(Effort::MovesOffInterfaces);
+    for (unsigned round = 0; round < RoundsOfRoom && !this->Poor.empty(); ++round)
     {
-      this->WorkInOrder(blocks);
-      const auto side = std::max<std::size_t>(
-        2, static_cast<std::size_t>(std::lround(std::cbrt(static_cast<double>(blocks)))));
-      this->WorkInBoxes(side, false, Effort::Plain);
-      this->WorkInBoxes(side, true, Effort::Plain);
-      this->WorkInBoxes(side, false, Effort::Insertions);
+      this->MakeRoom(TighterBounds + TighterEachRound * round);
+      this->WorkOnAll(Effort::Insertions);
+      this->WorkOnAll(Effort::MovesOffInterfaces);
     }
-    this->WorkOnAll();
   }
 
 private:
-  using Blocks = std::vector<std::uint32_t>; ///< of each vertex
+  using Spare = BlockSchedule<3>::Spare;
 
-  //----------------------------------------------------------------------------------------------
-  /** Blocks of consecutive vertices. They are compact if points are sorted along a curve. */
-  void WorkInOrder(std::size_t number)
+  void WorkInTiles(Effort effort)
   {
-    Blocks blocks(this->Mesh.Points.size());
-    for (std::size_t v = 0; v < blocks.size(); ++v)
-    {
-      blocks[v] = static_cast<std::uint32_t>(v * number / blocks.size());
-    }
-    this->WorkInBlocks(number, blocks, Effort::Plain);
+    this->Schedule.RunInTiles(
+      std::exchange(this->Poor, {}),
+      [this](std::uint32_t t)
+      { return this->Mesh.IsPoor(t) ? std::optional(this->Schedule.ItemOf(t)) : std::nullopt; },
+      SpareFor(effort),
+      [&](Patch<3>& patch, std::span<const std::uint32_t> cells)
+      { this->WorkInBlock(patch, cells, effort); });
+    this->SortPoor();
   }
 
-  /** @param perAxis, shift see DivideIntoBoxes() */
-  void WorkInBoxes(std::size_t perAxis, bool shift, Effort effort)
+  /** Edge removal needs additional slots for rings of six and more. Otherwise it mostly frees slots. */
+  static Spare SpareFor(Effort effort)
   {
-    VertexBoxes boxes =
-      DivideIntoBoxes(this->Mesh.Points, perAxis, shift, this->Threads, this->Limits.Stop);
-    this->WorkInBlocks(boxes.Number, boxes.OfVertex, effort);
+    return effort == Effort::Plain ? Spare{} : Spare{ SlotsPerPoor, SparePerPoor };
   }
 
-  /** @param blocks receives the blocks of the vertices that insertions may use */
-  void WorkInBlocks(std::size_t number, Blocks& blocks, Effort effort)
+  /** Works on poor tetrahedra of a block. Adds those that are left to Poor. */
+  void WorkInBlock(Patch<3>& patch, std::span<const std::uint32_t> cells, Effort effort)
   {
-    std::vector<std::vector<std::uint32_t>> poor(number);
-    std::vector<std::uint32_t> between;
-    for (const std::uint32_t t : this->Poor)
+    AnchorMap none;
+    TetrahedronImprover improver(patch, this->Image, this->Rules, 0.0, none, effort);
+    PatchWorker<3, TetrahedronImprover> worker(patch, improver, this->Limits, cells);
+    for (unsigned pass = 0; pass < PassesOfBlock && worker.Pass() != 0; ++pass)
     {
-      const auto& v = this->Mesh.Cells[t].V;
-      const std::uint32_t block = blocks[v[0]];
-      const bool inside = blocks[v[1]] == block && blocks[v[2]] == block && blocks[v[3]] == block;
-      (inside ? poor[block] : between).push_back(t);
     }
-    std::vector<std::vector<std::uint32_t>> slots(number);
-    for (std::size_t k = 0; k < this->Slots.size(); ++k)
-    {
-      slots[k * number / this->Slots.size()].push_back(this->Slots[k]);
-    }
-    std::vector<std::uint32_t> spareVertices; // the first of each block, and the end
-    if (effort != Effort::Plain)
-    {
-      spareVertices = this->AddSpareVertices(poor, blocks);
-    }
-    std::vector<std::uint32_t> clocks(number, this->LastClock);
-    // The block with most work is not the last to begin.
-    std::vector<std::uint32_t> order(number);
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(),
-      [&](std::uint32_t a, std::uint32_t b) { return poor[a].size() > poor[b].size(); });
-    std::mutex mutex; // guards the statistics
-    ParallelTasks(
-      number, this->Threads,
-      [&](std::size_t k)
-      {
-        const std::uint32_t b = order[k];
-        if (poor[b].empty())
-        {
-          return;
-        }
-        PatchWorker worker(this->Mesh, blocks, b, this->Image, this->Rules,
-          this->Options.InterfaceTolerance, this->Limits);
-        worker.GetPatch().Clock = this->LastClock;
-        worker.GetPatch().SetSlots(std::move(slots[b]));
-        if (!spareVertices.empty())
-        {
-          worker.GetPatch().SetSpareVertices(spareVertices[b], spareVertices[b + 1]);
-        }
-        worker.WorkOn(poor[b]);
-        for (unsigned pass = 0; pass < PassesOfBlock && worker.Pass(effort) != 0; ++pass)
-        {
-        }
-        poor[b] = worker.Left();
-        slots[b] = worker.GetPatch().TakeSlots();
-        clocks[b] = worker.GetPatch().Clock;
-        const std::scoped_lock lock(mutex);
-        this->Count(worker);
-      },
-      this->Limits.Stop);
+    const std::vector<std::uint32_t> left = worker.Left();
+    const std::scoped_lock lock(this->Mutex);
+    this->Poor.insert(this->Poor.end(), left.begin(), left.end());
+    this->Count(improver);
     ++this->Statistics.Passes;
-    this->LastClock = *std::max_element(clocks.begin(), clocks.end()) + 1;
-    this->Slots.clear();
-    this->Poor = std::move(between);
-    for (std::size_t b = 0; b < number; ++b)
-    {
-      this->Slots.insert(this->Slots.end(), slots[b].begin(), slots[b].end());
-      this->Poor.insert(this->Poor.end(), poor[b].begin(), poor[b].end());
-    }
-    // A block may have improved a tetrahedron between blocks, or its slot may hold another one now.
+  }
+
+  /** A block may have improved a tetrahedron between blocks, or its slot may hold another one now. */
+  void SortPoor()
+  {
     std::sort(this->Poor.begin(), this->Poor.end());
     this->Poor.erase(std::unique(this->Poor.begin(), this->Poor.end()), this->Poor.end());
     std::erase_if(this->Poor, [this](std::uint32_t t) { return !this->Mesh.IsPoor(t); });
   }
 
-  /** Gives each block vertices for its poor tetrahedra. Returns the first of each, and the end. */
-  std::vector<std::uint32_t> AddSpareVertices(
-    const std::vector<std::vector<std::uint32_t>>& poor, Blocks& blocks)
+  void Count(const TetrahedronImprover& improver)
   {
-    std::vector<std::uint32_t> first{ static_cast<std::uint32_t>(blocks.size()) };
-    for (std::uint32_t b = 0; b < poor.size(); ++b)
-    {
-      blocks.resize(blocks.size() + SparePerPoor * poor[b].size(), b);
-      first.push_back(static_cast<std::uint32_t>(blocks.size()));
-    }
-    this->Mesh.AddVertices(blocks.size() - this->Mesh.Points.size());
-    return first;
-  }
-
-  void Count(const PatchWorker& worker)
-  {
-    this->Statistics.Flips += worker.GetFlipStatistics();
-    this->Statistics.Smoothing += worker.GetSmoothingStatistics();
+    this->Statistics.Flips += improver.GetFlipStatistics();
+    this->Statistics.Smoothing += improver.GetSmoothingStatistics();
   }
 
   //----------------------------------------------------------------------------------------------
-  /**
-   * One thread works on the whole mesh, with growing effort; then it makes room around the
-   * remaining poor tetrahedra.
-   */
-  void WorkOnAll()
+  /** One thread works on what blocks have left, until nothing gets better. */
+  void WorkOnAll(Effort effort)
   {
-    this->WorkWithoutInsertions();
-    const std::size_t points = this->Mesh.Points.size();
-    const std::size_t spare = SparePerPoor * this->Poor.size();
-    this->Mesh.AddVertices(spare);
-    PatchWorker worker(
-      this->Mesh, {}, 0, this->Image, this->Rules, this->Options.InterfaceTolerance, this->Limits);
-    Patch<3>& patch = worker.GetPatch();
-    patch.Clock = this->LastClock;
-    patch.SetSlots(std::move(this->Slots));
-    patch.SetSpareVertices(
-      static_cast<std::uint32_t>(points), static_cast<std::uint32_t>(points + spare));
-    worker.WorkOn(this->Poor);
-    this->WorkWith(Effort::Insertions, worker);
-    this->WorkWith(Effort::MovesOffInterfaces, worker);
-    for (unsigned round = 0; round < RoundsOfRoom; ++round)
-    {
-      if (worker.Left().empty() || this->Limits.OutOfTime())
-      {
-        break;
-      }
-      this->MakeRoom(worker, TighterBounds + TighterEachRound * round);
-      this->WorkWith(Effort::Insertions, worker);
-      this->WorkWith(Effort::MovesOffInterfaces, worker);
-    }
-    this->Count(worker);
-  }
-
-  /** Most of the poor tetrahedra go, so that few vertices need room afterwards. */
-  void WorkWithoutInsertions()
-  {
-    PatchWorker worker(
-      this->Mesh, {}, 0, this->Image, this->Rules, this->Options.InterfaceTolerance, this->Limits);
-    worker.GetPatch().Clock = this->LastClock;
-    worker.GetPatch().SetSlots(std::move(this->Slots));
-    worker.WorkOn(this->Poor);
-    this->WorkWith(Effort::Plain, worker);
-    this->Poor = worker.Left();
-    this->Slots = worker.GetPatch().TakeSlots();
-    this->LastClock = worker.GetPatch().Clock;
-    this->Count(worker);
-  }
-
-  /** Makes passes until nothing gets better. */
-  void WorkWith(Effort effort, PatchWorker& worker)
-  {
-    if (effort == Effort::MovesOffInterfaces && !(this->Options.InterfaceTolerance > 0.0))
+    const bool isOff =
+      effort == Effort::MovesOffInterfaces && !(this->Options.InterfaceTolerance > 0.0);
+    if (this->Poor.empty() || isOff || this->Limits.OutOfTime())
     {
       return;
     }
-    worker.TryAllAgain();
-    for (unsigned pass = 0; pass < MostPasses; ++pass)
+    this->Schedule.RunInBlocks({}, { this->Poor }, SpareFor(effort),
+      [&](Patch<3>& patch, std::span<const std::uint32_t> cells)
+      {
+        TetrahedronImprover improver(
+          patch, this->Image, this->Rules, this->Options.InterfaceTolerance, this->Anchors, effort);
+        PatchWorker<3, TetrahedronImprover> worker(patch, improver, this->Limits, cells);
+        std::size_t better = 1;
+        for (unsigned pass = 0; pass < MostPasses && better != 0 && !this->Limits.OutOfTime();
+             ++pass)
+        {
+          this->FindStars(patch, worker.Left());
+          better = worker.Pass();
+          ++this->Statistics.Passes;
+        }
+        this->Poor = worker.Left();
+        this->Count(improver);
+      });
+  }
+
+  void FindStars(Patch<3>& patch, const std::vector<std::uint32_t>& cells) const
+  {
+    std::vector<std::uint32_t> vertices;
+    for (const std::uint32_t t : cells)
     {
-      if (effort != Effort::Plain)
-      {
-        this->FindStarsOf(worker);
-      }
-      ++this->Statistics.Passes;
-      if (worker.Pass(effort) == 0 || this->Limits.OutOfTime())
-      {
-        break;
-      }
+      const auto& v = this->Mesh.Cells[t].V;
+      vertices.insert(vertices.end(), v.begin(), v.end());
     }
+    patch.FindStars(vertices, this->Threads, this->Limits.Stop);
   }
 
   /**
@@ -330,63 +221,46 @@ private:
    * Each room is a block. Outside of rooms nothing changes: there, one tetrahedron beyond its
    * bounds would lead to the next, and so on without end.
    */
-  void MakeRoom(PatchWorker& worker, double tighter)
+  void MakeRoom(double tighter)
   {
-    Patch<3>& patch = worker.GetPatch();
-    Rooms rooms = RoomsAround(this->Mesh, worker.Left(), EdgesOfRoom);
+    const Rooms rooms = RoomsAround(this->Mesh, this->Poor, EdgesOfRoom);
     const ShapeScore usual = this->Mesh.Shape;
     this->Mesh.Shape = ShapeScore(
       std::min(tighter * this->Options.SmallestDihedralAngle, LargestLowerBound),
       std::max(180.0 - tighter * (180.0 - this->Options.LargestDihedralAngle), SmallestUpperBound),
       this->Options.Shape.RadiusEdgeRatio);
-    this->Poor = this->Rescore(rooms);
-    this->LastClock = patch.Clock;
-    this->Slots = patch.TakeSlots();
-    this->WorkInBlocks(rooms.Number, rooms.OfVertex, Effort::Plain);
-    patch.Clock = this->LastClock;
-    patch.SetSlots(std::move(this->Slots));
+    std::vector<std::vector<std::uint32_t>> poor(rooms.Number);
+    for (const std::uint32_t t : this->Rescore(rooms))
+    {
+      poor[rooms.OfVertex[this->Mesh.Cells[t].V[0]]].push_back(t);
+    }
+    this->Schedule.RunInBlocks(rooms.OfVertex, poor, {},
+      [this](Patch<3>& patch, std::span<const std::uint32_t> cells)
+      { this->WorkInBlock(patch, cells, Effort::Plain); });
     this->Mesh.Shape = usual;
-    worker.WorkOn(this->Rescore(rooms));
+    this->Poor = this->Rescore(rooms);
   }
 
   /** Scores the tetrahedra in rooms again. Returns the poor ones. */
   std::vector<std::uint32_t> Rescore(const Rooms& rooms)
   {
-    const auto isInRoom = [&](std::uint32_t t)
-    { return this->Mesh.IsAlive(t) && rooms.Contain(this->Mesh.Cells[t].V); };
-    ParallelFor(
-      0, this->Mesh.Cells.size(), SurveyGrain, this->Threads,
-      [&](std::size_t first, std::size_t last)
+    return ParallelCollect<std::uint32_t>(
+      this->Mesh.Cells.size(), SurveyGrain, this->Threads,
+      [&](std::size_t first, std::size_t last, std::vector<std::uint32_t>& poor)
       {
         for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
         {
-          if (isInRoom(t))
+          if (this->Mesh.IsAlive(t) && rooms.Contain(this->Mesh.Cells[t].V))
           {
             this->Mesh.Scores[t] = static_cast<float>(this->Mesh.Score(this->Mesh.Cells[t].V));
+            if (this->Mesh.IsPoor(t))
+            {
+              poor.push_back(t);
+            }
           }
         }
       },
       this->Limits.Stop);
-    std::vector<std::uint32_t> poor;
-    for (std::uint32_t t = 0; t < this->Mesh.Cells.size(); ++t)
-    {
-      if (this->Mesh.Scores[t] < 1.0f && isInRoom(t))
-      {
-        poor.push_back(t);
-      }
-    }
-    return poor;
-  }
-
-  void FindStarsOf(PatchWorker& worker) const
-  {
-    std::vector<std::uint32_t> vertices;
-    for (const std::uint32_t t : worker.Left())
-    {
-      const auto& v = this->Mesh.Cells[t].V;
-      vertices.insert(vertices.end(), v.begin(), v.end());
-    }
-    worker.GetPatch().FindStars(vertices, this->Threads, this->Limits.Stop);
   }
 
   TetrahedralComplex& Mesh;
@@ -396,9 +270,10 @@ private:
   const unsigned Threads;
   const OptimisationLimits& Limits;
   OptimisationStatistics& Statistics;
+  BlockSchedule<3> Schedule;
   std::vector<std::uint32_t> Poor;
-  std::vector<std::uint32_t> Slots;
-  std::uint32_t LastClock = 1;
+  AnchorMap Anchors;
+  std::mutex Mutex; ///< guards Poor and Statistics while blocks are worked on
 };
 
 //------------------------------------------------------------------------------------------------

@@ -90,9 +90,8 @@ struct OptimisationStatistics
  * A mesh without poor tetrahedra is unchanged. Otherwise the used points keep their order, and new
  * points come last. The cells around the object are dropped.
  *
- * Most of the work is done in blocks of vertices, one thread for each block. Each round uses other
- * blocks. One thread does the rest. Blocks do not depend on the number of threads, so neither does
- * the result, unless the time limit ends the work.
+ * Blocks of vertices are worked on side by side (BlockSchedule). One thread tries what is left. The result does
+ * not depend on the number of threads, unless the time limit ends the work.
  *
  * @param complex its points sorted along a space-filling curve make it fast
  * @param domain the domain that the mesh was made from

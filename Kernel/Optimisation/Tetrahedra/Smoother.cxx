@@ -409,7 +409,7 @@ bool Smoother::AscendInStar(Point<3>& p)
   {
     return false;
   }
-  return this->Target.Move(this->Star, p, this->Scores);
+  return this->Target.Move(this->Star.Vertex, p, this->Star.Cells, this->Scores);
 }
 
 /** Moves p until the smallest score is enough or no step helps. False if p does not move. */

@@ -38,6 +38,9 @@ struct SmoothingStatistics
   std::uint64_t Insertions = 0;
 };
 
+/** Where vertices on interfaces were before they were moved off. */
+using AnchorMap = std::unordered_map<std::uint32_t, Point<3>>;
+
 /**
  * @brief Optimisation-based smoothing (Freitag and Ollivier-Gooch, Tetrahedral mesh improvement
  * using swapping and smoothing, 1997): steepest ascent of the smallest score in the star of a
@@ -67,12 +70,17 @@ struct SmoothingStatistics
 class Smoother
 {
 public:
-  /** @param reach how far vertices may be moved off interfaces */
-  Smoother(Patch<3>& patch, const Domain<3>& domain, const InterfaceRules& rules, double reach)
+  /**
+   * @param reach how far vertices may be moved off interfaces
+   * @param anchors of those that earlier ones have moved; changed. Must outlive this object.
+   */
+  Smoother(Patch<3>& patch, const Domain<3>& domain, const InterfaceRules& rules, double reach,
+    AnchorMap& anchors)
     : Target(patch)
     , Image(domain)
     , Rules(rules)
     , LargestReach(reach)
+    , Anchors(anchors)
   {
   }
 
@@ -144,6 +152,7 @@ private:
   const Domain<3>& Image;
   const InterfaceRules Rules;
   const double LargestReach;
+  AnchorMap& Anchors;
   double Reach = 0.0; ///< of the vertex that is moved
   SmoothingStatistics Done;
 
@@ -159,7 +168,6 @@ private:
   TetrahedralComplex::Label Sides[2]; ///< labels behind and in front of the normal
   double ShortestEdge = 0.0;
   Point<3> Anchor{};
-  std::unordered_map<std::uint32_t, Point<3>> Anchors; ///< original positions of moved vertices
   EdgeRing Ring;
   std::vector<std::uint32_t> Cavity;
   std::vector<CavityFacet> Facets; ///< of Cavity

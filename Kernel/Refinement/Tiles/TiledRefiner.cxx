@@ -126,7 +126,7 @@ auto TiledRefiner<Rules>::RefineAll(Work work, bool defersSlivers) -> Work
     std::vector<TileItem<D>> items = this->MakeItems(work);
     const bool isLittle = items.size() < this->Fewest || pass >= MostTilings;
     std::vector<Tile<D>> tiles =
-      isLittle ? TileCutter<D>::Whole(items) : TileCutter<D>::Cut(items, box);
+      (isLittle ? TileCutter<D>::Whole(items) : TileCutter<D>::Cut(items, box)).Tiles;
     // If circumballs are too large for tiles, one thread refines the largest.
     const double smallest = tiles.size() == 1 && !isLittle && pass == 0
       ? TileCutter<D>::LargestReach(items, box) / Reach

@@ -12,7 +12,7 @@
 #include "Refinement/Rules/Rules3D.h"
 #include "Refinement/Rules/Rules4D.h"
 #include "Refinement/Scheduling/TeamOptions.h"
-#include "Refinement/Tiles/Tiles.h"
+#include "Geometry/Tiles.h"
 
 #include <atomic>
 #include <cstdint>

@@ -378,7 +378,8 @@ TEST_P(OptimisedPhantom, SmoothingNeverLowersTheWorstOfAStar)
     checks::ComplexOf(this->Before, ShapeScore(40.0, 120.0, 2.5), &this->Domain);
   const std::vector<std::uint32_t> blocks(complex.Points.size(), 0);
   Patch patch(complex, blocks, 0);
-  Smoother smoother(patch, this->Domain, InterfaceRules(30.0, 20.0, 30.0), 0.05);
+  AnchorMap anchors;
+  Smoother smoother(patch, this->Domain, InterfaceRules(30.0, 20.0, 30.0), 0.05, anchors);
   VertexStar<3> star;
   const auto worst = [&]
   {

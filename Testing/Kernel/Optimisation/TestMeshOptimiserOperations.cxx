@@ -511,7 +511,8 @@ bool InsertInside(SimplexMesh<3>& mesh, const OptimisationOptions& options)
   patch.SetSlots(slots);
   patch.SetSpareVertices(vertices, vertices + 1);
   const checks::BallDomain domain(100.0);
-  Smoother smoother(patch, domain, InterfaceRules(30.0, 20.0, 30.0), 0.0);
+  AnchorMap anchors;
+  Smoother smoother(patch, domain, InterfaceRules(30.0, 20.0, 30.0), 0.0, anchors);
   const bool isInserted = smoother.InsertInside(0);
   EXPECT_EQ(smoother.Counts().Insertions, isInserted ? 1u : 0u);
   mesh = checks::Written(complex);

@@ -33,9 +33,9 @@ TEST(PentatopeInsertion, FillsCavitiesWithBetterPentatopes)
   const PentatopeBounds bounds;
   PentatopeComplex complex = checks::ScoredComplexOf(mesh);
   const PentatopeRules rules(domain, bounds);
-  PentatopeCavity cavity(complex, rules);
-  complex.Goal = bounds.Target;
   Patch patch(complex, {}, 0);
+  PentatopeCavity cavity(patch, rules);
+  complex.Goal = bounds.Target;
   std::size_t made = 0;
   for (std::uint32_t s = 0; s < mesh.Simplices.size() && made < 40; ++s)
   {
@@ -97,7 +97,8 @@ TEST(PentatopeInsertion, BreaksNoMoreBoundsThanBefore)
   const auto breaks = [&](const std::array<const Point<4>*, 5>& points)
   { return ShapeOf(points).Ratio > bounds.RadiusEdgeRatio ? 1 : 0; };
   const PentatopeRules rules(domain, bounds);
-  PentatopeCavity cavity(complex, rules);
+  const Patch patch(complex, {}, 0);
+  PentatopeCavity cavity(patch, rules);
   int made = 0;
   int broken = 0;
   for (std::uint32_t s = 0; s < mesh.Simplices.size() && made < 40; ++s)
@@ -140,8 +141,8 @@ TEST(PentatopeComplex, StarsFollowChanges)
   PentatopeComplex complex = checks::ScoredComplexOf(mesh);
   complex.Goal = 2.0 * bounds.Target;
   const PentatopeRules rules(domain, bounds);
-  PentatopeCavity cavity(complex, rules);
   Patch patch(complex, {}, 0);
+  PentatopeCavity cavity(patch, rules);
   std::size_t flips = 0;
   std::size_t insertions = 0;
   for (int pass = 0; pass < 6; ++pass)
@@ -218,7 +219,7 @@ TEST(PentatopeInsertion, LosesNoVertex)
   complex.Goal = bounds.Target;
   ASSERT_TRUE(complex.IsPoor(4));
   const PentatopeInsertion insertion =
-    PentatopeCavity(complex, PentatopeRules(domain, bounds)).Find(4, 0.2);
+    PentatopeCavity(Patch(complex, {}, 0), PentatopeRules(domain, bounds)).Find(4, 0.2);
   EXPECT_LT(insertion.Old.size(), 5u);
 }
 

@@ -193,14 +193,14 @@ TEST(PentatopeOptimiser, StarsMeasureMovedPentatopes)
   const LabelImage<4> image = ImageOf(PulsatingBalls(9, 2.0));
   const ImageDomain<4> domain(image, 1.0);
   const SimplexMesh<4> mesh = Mesh(image, UsualOptions(2.5), false).Mesh;
-  const PentatopeComplex complex = checks::ScoredComplexOf(mesh);
+  PentatopeComplex complex = checks::ScoredComplexOf(mesh);
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   PentatopeStar star;
   std::size_t positive = 0;
   for (std::uint32_t v = 0; v < mesh.Points.size(); v += 7)
   {
-    ASSERT_TRUE(star.Gather(complex, v));
+    ASSERT_TRUE(star.Gather(Patch(complex, {}, 0), v));
     ASSERT_EQ(star.Inside().size(), complex.Degrees[v]);
     Point<4> p = mesh.Points[v];
     for (double& x : p)
@@ -270,9 +270,9 @@ TEST(PentatopeOptimiser, FlatPentatopesGrowToTheRightSide)
     }
     mesh.Labels = { 1 };
     mesh.Points[4] = { 0.25, 0.25, 0.25, 0.25 - 1e-9 }; // behind the facet of the others
-    const PentatopeComplex complex = checks::ScoredComplexOf(mesh);
+    PentatopeComplex complex = checks::ScoredComplexOf(mesh);
     PentatopeStar star;
-    star.Gather(complex, 4);
+    star.Gather(Patch(complex, {}, 0), 4);
     ASSERT_EQ(star.Inside().size(), 1u);
     EXPECT_NEAR(star.Inside()[0].Measured().VolumeAt(regular[4]), 3.0 / 24.0, 1e-12);
     EXPECT_GT(Dot(star.Inside()[0].Measured().GradientAt(mesh.Points[4]), regular[4]), 0.0);

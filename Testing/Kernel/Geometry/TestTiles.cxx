@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where space is cut into tiles, and the lattice that makes circumballs small beside them.
 #include "BallDomain.h"
+#include "Geometry/Tiles.h"
 #include "Refinement/Tiles/CoarseLattice.h"
-#include "Refinement/Tiles/Tiles.h"
 #include "RefinementChecks.h"
 #include "TriangulationChecks.h"
 
@@ -47,10 +47,11 @@ Box<D> Cube()
   return box;
 }
 
-/** Every item is in the tile that contains its place, and no point is in two tiles. */
+/** Every item is in the tile that contains its place, and every point is in the one tile that is found. */
 template <int D>
-void ExpectPartition(const std::vector<Tile<D>>& tiles, const std::vector<TileItem<D>>& items)
+void ExpectPartition(const Tiling<D>& tiling, const std::vector<TileItem<D>>& items)
 {
+  const std::vector<Tile<D>>& tiles = tiling.Tiles;
   std::vector<int> times(items.size());
   for (const Tile<D>& tile : tiles)
   {
@@ -80,6 +81,7 @@ void ExpectPartition(const std::vector<Tile<D>>& tiles, const std::vector<TileIt
     EXPECT_EQ(std::count_if(tiles.begin(), tiles.end(),
                 [&](const Tile<D>& tile) { return tile.Extent.Contains(p); }),
       1);
+    EXPECT_TRUE(tiles.at(tiling.TileAt(p)).Extent.Contains(p));
   }
 }
 
@@ -89,20 +91,20 @@ void ExpectPartition(const std::vector<Tile<D>>& tiles, const std::vector<TileIt
 TEST(Tiles, CoverSpaceOnce)
 {
   const auto items = RandomItems<3>(20000, 100.0, 1.0);
-  const auto tiles = TileCutter<3>::Cut(items, Cube<3>());
-  EXPECT_GE(tiles.size(), 16u);
-  ExpectPartition<3>(tiles, items);
+  const auto tiling = TileCutter<3>::Cut(items, Cube<3>());
+  EXPECT_GE(tiling.Tiles.size(), 16u);
+  ExpectPartition<3>(tiling, items);
   const auto items4 = RandomItems<4>(20000, 100.0, 1.0);
-  const auto tiles4 = TileCutter<4>::Cut(items4, Cube<4>());
-  EXPECT_GE(tiles4.size(), 16u);
-  ExpectPartition<4>(tiles4, items4);
+  const auto tiling4 = TileCutter<4>::Cut(items4, Cube<4>());
+  EXPECT_GE(tiling4.Tiles.size(), 16u);
+  ExpectPartition<4>(tiling4, items4);
 }
 
 TEST(Tiles, HaveAboutTheSameWork)
 {
   const auto items = RandomItems<3>(20000, 100.0, 1.0);
   std::size_t most = 0;
-  const auto tiles = TileCutter<3>::Cut(items, Cube<3>());
+  const auto tiles = TileCutter<3>::Cut(items, Cube<3>()).Tiles;
   for (const Tile<3>& tile : tiles)
   {
     most = std::max(most, tile.Inside.size() + tile.Across.size());
@@ -114,14 +116,15 @@ TEST(Tiles, HaveAboutTheSameWork)
 TEST(Tiles, AreNotCutWhereMostItemsAreInTheWay)
 {
   const auto items = RandomItems<3>(20000, 100.0, 30.0);
-  EXPECT_EQ(TileCutter<3>::Cut(items, Cube<3>()).size(), 1u);
-  EXPECT_EQ(TileCutter<3>::Whole(items).size(), 1u);
+  EXPECT_EQ(TileCutter<3>::Cut(items, Cube<3>()).Tiles.size(), 1u);
+  EXPECT_EQ(TileCutter<3>::Whole(items).Tiles.size(), 1u);
   ExpectPartition<3>(TileCutter<3>::Whole(items), items);
   const double largest = TileCutter<3>::LargestReach(items, Cube<3>());
   EXPECT_GT(largest, 2.0);
   EXPECT_LT(largest, 30.0);
-  EXPECT_GE(TileCutter<3>::Cut(RandomItems<3>(20000, 100.0, 0.9 * largest), Cube<3>()).size(), 2u);
-  EXPECT_EQ(TileCutter<3>::Cut(RandomItems<3>(100, 100.0, 0.01), Cube<3>()).size(), 1u)
+  EXPECT_GE(
+    TileCutter<3>::Cut(RandomItems<3>(20000, 100.0, 0.9 * largest), Cube<3>()).Tiles.size(), 2u);
+  EXPECT_EQ(TileCutter<3>::Cut(RandomItems<3>(100, 100.0, 0.01), Cube<3>()).Tiles.size(), 1u)
     << "too few";
 }
 
@@ -132,7 +135,7 @@ TEST(Tiles, AreCutElsewhereTheNextTime)
   std::size_t passes = 0;
   while (items.size() > 500 && passes < 20)
   {
-    const auto tiles = TileCutter<3>::Cut(items, Cube<3>());
+    const auto tiles = TileCutter<3>::Cut(items, Cube<3>()).Tiles;
     std::vector<TileItem<3>> left;
     for (const Tile<3>& tile : tiles)
     {
@@ -158,9 +161,9 @@ TEST(Tiles, AreCutWhereTheItemsAreDespiteOutliers)
   items[0].Place = { 1e9, -1e9, 1e17 };
   items[1].Place = { -1e17, 50.0, 50.0 };
   items[0].Reach = items[1].Reach = 1e18;
-  const auto tiles = TileCutter<3>::Cut(items, Cube<3>());
-  EXPECT_GE(tiles.size(), 16u);
-  ExpectPartition<3>(tiles, items);
+  const auto tiling = TileCutter<3>::Cut(items, Cube<3>());
+  EXPECT_GE(tiling.Tiles.size(), 16u);
+  ExpectPartition<3>(tiling, items);
   EXPECT_LT(TileCutter<3>::LargestReach(items, Cube<3>()), 100.0);
 }
 
@@ -171,7 +174,7 @@ TEST(Tiles, ItemsInOnePlaceAreNotCut)
   {
     items[i].Number = static_cast<std::uint32_t>(3 * i);
   }
-  const auto tiles = TileCutter<3>::Cut(items, Cube<3>());
+  const auto tiles = TileCutter<3>::Cut(items, Cube<3>()).Tiles;
   ASSERT_EQ(tiles.size(), 1u);
   EXPECT_EQ(tiles[0].Inside.size(), items.size());
 }

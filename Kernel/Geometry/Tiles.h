@@ -20,7 +20,7 @@
 namespace voxplex
 {
 
-/** A piece of work: a simplex, or a removal. */
+/** A piece of work on a part of a mesh. */
 template <int D>
 struct TileItem
 {
@@ -38,6 +38,45 @@ struct Tile
   std::vector<std::uint32_t> Across; ///< items whose balls meet another tile
 };
 
+/** All of space, cut into tiles. */
+template <int D>
+struct Tiling
+{
+  /** A plane, and what is on both sides: the number of another one; or of a tile, if the highest bit is set. */
+  struct Plane
+  {
+    std::size_t Axis;
+    double Place;
+    std::array<std::uint32_t, 2> Sides;
+  };
+  static constexpr std::uint32_t IsTile = 0x80000000u;
+
+  /** The tile that contains a point. Takes the time of one comparison for each level. */
+  std::uint32_t TileAt(const Point<D>& p) const
+  {
+    std::uint32_t at = this->Planes.empty() ? IsTile : 0;
+    while ((at & IsTile) == 0)
+    {
+      const Plane& plane = this->Planes[at];
+      at = plane.Sides[p[plane.Axis] < plane.Place ? 0 : 1];
+    }
+    return at & ~IsTile;
+  }
+
+  std::vector<Tile<D>> Tiles;
+  std::vector<Plane> Planes; ///< that of all space is the first one
+};
+
+/** When space is not cut any further. */
+template <int D>
+struct TileLimits
+{
+  std::size_t FewestItems = 512; ///< a part with fewer items is not cut
+  /** The largest fraction of a part's items whose balls meet the plane. */
+  double MostInTheWay = D == 3 ? 0.25 : 0.3;
+  unsigned MostCuts = 5; ///< of a point's surroundings: there are at most 2^MostCuts tiles
+};
+
 /**
  * @brief Cuts space by planes across the axes, as a k-d tree does.
  *
@@ -52,22 +91,23 @@ class TileCutter
 {
 public:
   /** One tile: all of space. */
-  static std::vector<Tile<D>> Whole(const std::vector<TileItem<D>>& items)
+  static Tiling<D> Whole(const std::vector<TileItem<D>>& items)
   {
-    std::vector<Tile<D>> tiles;
-    AddTile(items.begin(), items.end(), Space(), tiles);
-    return tiles;
+    Tiling<D> tiling;
+    AddTile(items.begin(), items.end(), Space(), tiling);
+    return tiling;
   }
 
   /**
-   * Takes O(items) for each of MostCuts levels of the tree.
+   * Takes O(items) for each level of the tree.
    * @param box all planes cut it; items may be anywhere, as circumcentres of flat simplices are
    */
-  static std::vector<Tile<D>> Cut(std::vector<TileItem<D>> items, const Box<D>& box)
+  static Tiling<D> Cut(
+    std::vector<TileItem<D>> items, const Box<D>& box, const TileLimits<D>& limits = {})
   {
-    std::vector<Tile<D>> tiles;
-    Cut(items.begin(), items.end(), Space(), box, MostCuts, tiles);
-    return tiles;
+    Tiling<D> tiling;
+    Cut(items.begin(), items.end(), Space(), box, limits, limits.MostCuts, tiling);
+    return tiling;
   }
 
   /** If most items reach less far than this, Cut() makes at least two tiles. */
@@ -79,19 +119,13 @@ public:
     {
       extent = std::max(extent, high[a] - low[a]);
     }
-    return 0.5 * MostInTheWay * extent;
+    return 0.5 * TileLimits<D>().MostInTheWay * extent;
   }
 
 private:
   using Iterator = typename std::vector<TileItem<D>>::iterator;
   using ConstIterator = typename std::vector<TileItem<D>>::const_iterator;
 
-  /** At most 2^MostCuts tiles. */
-  static constexpr unsigned MostCuts = 5;
-  /** A part with fewer items is not cut. */
-  static constexpr std::size_t FewestItems = 512;
-  /** The largest fraction of a part's items whose balls meet the plane. */
-  static constexpr double MostInTheWay = D == 3 ? 0.25 : 0.3;
   /** With more items, a plane is chosen by some of them. */
   static constexpr std::ptrdiff_t MostLookedAt = 2048;
   /** Planes that are tried across each axis. */
@@ -129,15 +163,17 @@ private:
     return bounds;
   }
 
-  static void Cut(Iterator first, Iterator last, const HalfOpenBox<D>& extent, const Box<D>& box,
-    unsigned cuts, std::vector<Tile<D>>& tiles)
+  /** @return the number of a plane or tile, as in Tiling::Plane::Sides */
+  static std::uint32_t Cut(Iterator first, Iterator last, const HalfOpenBox<D>& extent,
+    const Box<D>& box, const TileLimits<D>& limits, unsigned cuts, Tiling<D>& tiling)
   {
     const auto count = static_cast<std::size_t>(last - first);
-    const Plane plane = cuts > 0 && count >= FewestItems ? BestPlane(first, last, box) : Plane();
+    const Plane plane = cuts > 0 && count >= limits.FewestItems
+      ? BestPlane(first, last, box, limits.MostInTheWay)
+      : Plane();
     if (plane.Cost == Plane().Cost)
     {
-      AddTile(first, last, extent, tiles);
-      return;
+      return AddTile(first, last, extent, tiling);
     }
     const Iterator middle = std::partition(first, last,
       [&plane](const TileItem<D>& item) { return item.Place[plane.Axis] < plane.Place; });
@@ -145,19 +181,24 @@ private:
     HalfOpenBox<D> upper = extent;
     lower.Max[plane.Axis] = plane.Place;
     upper.Min[plane.Axis] = plane.Place;
-    Cut(first, middle, lower, box, cuts - 1, tiles);
-    Cut(middle, last, upper, box, cuts - 1, tiles);
+    const auto number = static_cast<std::uint32_t>(tiling.Planes.size());
+    tiling.Planes.push_back({ plane.Axis, plane.Place, {} });
+    const std::uint32_t below = Cut(first, middle, lower, box, limits, cuts - 1, tiling);
+    const std::uint32_t above = Cut(middle, last, upper, box, limits, cuts - 1, tiling);
+    tiling.Planes[number].Sides = { below, above };
+    return number;
   }
 
   /**
    * The plane for which the larger side and the items in the way are fewest together. Its cost is
    * the largest number if there are too many in the way of every plane.
    */
-  static Plane BestPlane(ConstIterator first, ConstIterator last, const Box<D>& box)
+  static Plane BestPlane(
+    ConstIterator first, ConstIterator last, const Box<D>& box, double mostInTheWay)
   {
     const auto stride = (last - first) / MostLookedAt + 1;
     const auto count = static_cast<std::size_t>((last - first - 1) / stride + 1);
-    const auto most = static_cast<std::size_t>(MostInTheWay * static_cast<double>(count));
+    const auto most = static_cast<std::size_t>(mostInTheWay * static_cast<double>(count));
     const auto [low, high] = Bounds(first, last, box, stride);
     Plane best;
     for (std::size_t a = 0; a < D; ++a)
@@ -198,10 +239,10 @@ private:
     return best;
   }
 
-  static void AddTile(ConstIterator first, ConstIterator last, const HalfOpenBox<D>& extent,
-    std::vector<Tile<D>>& tiles)
+  static std::uint32_t AddTile(
+    ConstIterator first, ConstIterator last, const HalfOpenBox<D>& extent, Tiling<D>& tiling)
   {
-    Tile<D>& tile = tiles.emplace_back(Tile<D>{ extent, {}, {} });
+    Tile<D>& tile = tiling.Tiles.emplace_back(Tile<D>{ extent, {}, {} });
     for (ConstIterator item = first; item != last; ++item)
     {
       const bool isInside = extent.ContainsBall(item->Place, item->Reach);
@@ -209,6 +250,7 @@ private:
     }
     std::sort(tile.Inside.begin(), tile.Inside.end());
     std::sort(tile.Across.begin(), tile.Across.end());
+    return Tiling<D>::IsTile | static_cast<std::uint32_t>(tiling.Tiles.size() - 1);
   }
 };
 
