@@ -11,6 +11,7 @@
 #include "Delaunay/Triangulation.h"
 #include "Delaunay/VertexStar.h"
 #include "Geometry/SimplexQuality.h"
+#include "Mesh/RidgeRing.h"
 
 #include <boost/container/small_vector.hpp>
 
@@ -160,15 +161,17 @@ public:
   /** @param t a simplex at the ridge; the time is linear in the number of those */
   Ring RingOf(const Ridge<D>& ridge, SimplexId t) const
   {
+    RidgeRing found;
+    const std::array<VertexId, 2> others = this->OthersOf(t, ridge);
+    GatherRing(
+      t, others[0],
+      others[1], [this](SimplexId s) -> const auto& { return this->Source.GetSimplex(s); },
+      [](SimplexId) { return true; }, found);
     Ring ring;
     ring.Vertices = ridge;
-    ring.Cells.push_back(t);
-    const std::array<VertexId, 2> others = this->OthersOf(t, ridge);
-    if (!this->Walk(ridge, others[0], others[1], ring.Cells))
-    {
-      std::reverse(ring.Cells.begin(), ring.Cells.end());
-      this->Walk(ridge, others[1], others[0], ring.Cells);
-    }
+    ring.Cells.assign(found.Closed ? 0 : 1, None);
+    ring.Cells.insert(ring.Cells.end(), found.Cells.begin(), found.Cells.end());
+    ring.Cells.push_back(found.Closed ? t : None);
     for (const SimplexId cell : ring.Cells)
     {
       ring.Labels.push_back(cell == None ? LabelId{ 0 } : this->Labels[cell]);
@@ -260,39 +263,6 @@ private:
       }
     }
     return others;
-  }
-
-  /**
-   * Appends the simplices around a ridge, from the last of a list on, up to the first of it or to None.
-   * @param behind, ahead the vertices of the last one that are not in the ridge; the next is opposite to `behind`
-   * @return whether it came to the first one
-   */
-  template <typename Cells>
-  bool Walk(const Ridge<D>& ridge, VertexId behind, VertexId ahead, Cells& cells) const
-  {
-    const SimplexId first = cells.front();
-    do
-    {
-      const auto& v = this->VerticesOf(cells.back());
-      const auto i = static_cast<unsigned>(std::find(v.begin(), v.end(), behind) - v.begin());
-      const SimplexId next = this->Beside(cells.back(), i);
-      cells.push_back(next);
-      if (next == None)
-      {
-        return false;
-      }
-      VertexId other = ahead; // becomes the vertex that is neither in the ridge nor the one ahead
-      for (const VertexId x : this->VerticesOf(next))
-      {
-        other ^= x;
-      }
-      for (const VertexId x : ridge)
-      {
-        other ^= x;
-      }
-      behind = std::exchange(ahead, other);
-    } while (cells.back() != first);
-    return true;
   }
 
   static constexpr int AtJunction = 2;

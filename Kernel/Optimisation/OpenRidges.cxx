@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -148,30 +147,16 @@ private:
     return static_cast<std::uint32_t>(this->Mesh.Points.size() + this->Points.size() - 1);
   }
 
-  /** The sector of a cell at a ridge; nothing if it does not have the ridge. */
-  static std::optional<Sector<D>> SectorOf(
-    const RidgeVertices<D>& ridge, std::uint32_t owner, const Corners& v, LabelId label)
+  /** The vertices of a cell that are not in a ridge of it: r and s of its sector. */
+  static std::array<std::uint32_t, 2> OthersOf(const RidgeVertices<D>& ridge, const Corners& v)
   {
-    Sector<D> sector{ owner, v, None, None, label };
     std::array<unsigned, N> places{}; // in v: of the ridge's vertices, then of the others
-    for (unsigned i = 0, found = 0; i < N; ++i)
+    unsigned found = 0;
+    for (unsigned i = 0; i < N; ++i)
     {
       const auto k =
         static_cast<unsigned>(std::find(ridge.begin(), ridge.end(), v[i]) - ridge.begin());
-      if (k < InRidge)
-      {
-        places[k] = i;
-      }
-      else if (found < 2)
-      {
-        places[InRidge + found] = i;
-        (found == 0 ? sector.R : sector.S) = v[i];
-        ++found;
-      }
-      else
-      {
-        return std::nullopt;
-      }
+      places[k < InRidge ? k : InRidge + found++] = i;
     }
     unsigned inversions = 0;
     for (unsigned i = 0; i < N; ++i)
@@ -181,54 +166,53 @@ private:
         inversions += places[j] > places[i] ? 1 : 0;
       }
     }
-    if (inversions % 2 == 1)
-    {
-      std::swap(sector.R, sector.S);
-    }
-    return sector;
+    const std::array others{ v[places[InRidge]], v[places[InRidge + 1]] };
+    return inversions % 2 == 1 ? std::array{ others[1], others[0] } : others;
   }
 
   /**
-   * If the triangulation ends at the ridge, a sector of background stands for what lies beyond. If
-   * the sectors are no circle for another reason, this returns nothing.
+   * The sectors around a ridge: a circle from the smallest r on. If the triangulation ends at the ridge, the last
+   * sector, of background, stands for what lies beyond. Nothing if no cell has the ridge.
    */
   std::optional<Ring<D>> RingOf(const RidgeVertices<D>& ridge) const
   {
-    std::map<std::uint32_t, Sector<D>> byFirst;
-    std::vector<std::uint32_t> seconds;
     VertexStar<D> star;
     this->Mesh.GatherStar(ridge[0], star, [](std::uint32_t) { return true; });
-    for (const std::uint32_t t : star.Cells)
-    {
-      if (const std::optional<Sector<D>> sector =
-            SectorOf(ridge, t, this->Mesh.Cells[t].V, this->Mesh.Labels[t]))
+    const auto first = std::find_if(star.Cells.begin(), star.Cells.end(),
+      [&](std::uint32_t t)
       {
-        byFirst[sector->R] = *sector;
-        seconds.push_back(sector->S);
-      }
-    }
-    Ring<D> ring{ ridge, {} };
-    auto at = std::find_if(byFirst.begin(), byFirst.end(),
-      [&](const auto& entry)
-      { return std::find(seconds.begin(), seconds.end(), entry.first) == seconds.end(); });
-    const bool isOpen = at != byFirst.end();
-    for (at = isOpen ? at : byFirst.begin();
-         at != byFirst.end() && ring.Sectors.size() < byFirst.size();
-         at = byFirst.find(at->second.S))
-    {
-      ring.Sectors.push_back(at->second);
-    }
-    if (ring.Sectors.size() != byFirst.size() || ring.Sectors.empty())
+        const Corners& v = this->Mesh.Cells[t].V;
+        return std::all_of(ridge.begin(), ridge.end(),
+          [&v](std::uint32_t x) { return std::find(v.begin(), v.end(), x) != v.end(); });
+      });
+    if (first == star.Cells.end())
     {
       return std::nullopt;
     }
-    if (isOpen)
+    const auto [r, s] = OthersOf(ridge, this->Mesh.Cells[*first].V);
+    RidgeRing around;
+    GatherRing(
+      *first, r, s, [this](std::uint32_t t) -> const auto& { return this->Mesh.Cells[t]; },
+      [](std::uint32_t) { return true; }, around);
+    Ring<D> ring{ ridge, {} };
+    for (std::size_t k = 0; k < around.Cells.size(); ++k)
     {
-      ring.Sectors.push_back(
-        { None, {}, ring.Sectors.back().S, ring.Sectors.front().R, LabelId{ 0 } });
+      const std::uint32_t t = around.Cells[k];
+      ring.Sectors.push_back({ t, this->Mesh.Cells[t].V, around.Link[k],
+        around.Link[(k + 1) % around.Link.size()], this->Mesh.Labels[t] });
     }
-    return ring.Sectors.back().S == ring.Sectors.front().R ? std::optional<Ring<D>>(std::move(ring))
-                                                           : std::nullopt;
+    if (around.Closed)
+    {
+      std::rotate(ring.Sectors.begin(),
+        std::min_element(ring.Sectors.begin(), ring.Sectors.end(),
+          [](const Sector<D>& a, const Sector<D>& b) { return a.R < b.R; }),
+        ring.Sectors.end());
+    }
+    else
+    {
+      ring.Sectors.push_back({ None, {}, around.Link.back(), around.Link.front(), LabelId{ 0 } });
+    }
+    return ring;
   }
 
   /** The first sector of each run of a label. */

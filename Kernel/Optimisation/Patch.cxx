@@ -47,18 +47,6 @@ TetrahedralComplex::Vertices StartingAtEdge(
   return w;
 }
 
-/** The index of the vertex that is none of a, b and c. */
-unsigned IndexOfOther(
-  const TetrahedralComplex::Vertices& v, std::uint32_t a, std::uint32_t b, std::uint32_t c)
-{
-  unsigned i = 0;
-  while (v[i] == a || v[i] == b || v[i] == c)
-  {
-    ++i;
-  }
-  return i;
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------------------------
@@ -329,60 +317,13 @@ bool GatherRing(
 {
   const TetrahedralComplex& mesh = patch.Mesh();
   const TetrahedralComplex::Vertices start = StartingAtEdge(mesh.Cells[t].V, i, j);
-  const std::uint32_t a = start[0];
-  const std::uint32_t b = start[1];
-  ring.A = a;
-  ring.B = b;
-  ring.Closed = false;
-  ring.Link.assign({ start[2], start[3] });
-  ring.Cells.assign({ t });
-  if (!patch.MayChange(t))
-  {
-    return false;
-  }
-  // Walk forwards until the start or the mesh's end, then backwards from the start.
-  for (std::uint32_t cell = t;;)
-  {
-    const std::uint32_t behind = ring.Link[ring.Link.size() - 2];
-    const std::uint32_t front = ring.Link.back();
-    const std::uint32_t next = mesh.Cells[cell].N[mesh.IndexOf(cell, behind)];
-    if (next == TetrahedralComplex::None)
-    {
-      break;
-    }
-    if (next == t)
-    {
-      ring.Closed = true;
-      ring.Link.pop_back();
-      return true;
-    }
-    const auto& v = mesh.Cells[next].V;
-    if (ring.Cells.size() == most || !patch.MayChange(next))
-    {
-      return false;
-    }
-    ring.Cells.push_back(next);
-    ring.Link.push_back(v[IndexOfOther(v, a, b, front)]);
-    cell = next;
-  }
-  for (std::uint32_t cell = t;;)
-  {
-    const std::uint32_t behind = ring.Link[1];
-    const std::uint32_t front = ring.Link[0];
-    const std::uint32_t next = mesh.Cells[cell].N[mesh.IndexOf(cell, behind)];
-    if (next == TetrahedralComplex::None)
-    {
-      return true;
-    }
-    const auto& v = mesh.Cells[next].V;
-    if (ring.Cells.size() == most || !patch.MayChange(next))
-    {
-      return false;
-    }
-    ring.Cells.insert(ring.Cells.begin(), next);
-    ring.Link.insert(ring.Link.begin(), v[IndexOfOther(v, a, b, front)]);
-    cell = next;
-  }
+  ring.A = start[0];
+  ring.B = start[1];
+  return patch.MayChange(t) &&
+    GatherRing(
+      t, start[2],
+      start[3], [&mesh](std::uint32_t cell) -> const auto& { return mesh.Cells[cell]; },
+      [&](std::uint32_t next) { return ring.Cells.size() != most && patch.MayChange(next); }, ring);
 }
 
 template class Patch<3>;

@@ -7,6 +7,7 @@
 #ifndef voxplex_Patch_h
 #define voxplex_Patch_h
 
+#include "Mesh/RidgeRing.h"
 #include "Optimisation/Complex.h"
 
 #include <algorithm>
@@ -22,16 +23,11 @@
 namespace voxplex
 {
 
-/**
- * The tetrahedra around an edge ab: (a, b, Link[k], Link[k + 1]) is Cells[k], positively oriented.
- */
-struct EdgeRing
+/** The tetrahedra around an edge ab: (a, b, Link[k], Link[k + 1]) is Cells[k], positively oriented. */
+struct EdgeRing : RidgeRing
 {
   std::uint32_t A = 0;
   std::uint32_t B = 0;
-  bool Closed = false; ///< true: Link[0] follows the last vertex; false: the mesh ends at both ends
-  std::vector<std::uint32_t> Link;
-  std::vector<std::uint32_t> Cells; ///< as long as Link; one shorter if not closed
 };
 
 /** A cell to be made. */
