@@ -303,13 +303,8 @@ private:
   /** Whether a tetrahedron is larger than the elements of a label may be. */
   bool IsTooLarge(SimplexId t, LabelId label) const
   {
-    if (!this->Sizing || label == 0)
-    {
-      return false;
-    }
-    const Circumball<D> ball = this->Near.Circumball(t);
-    const double size = this->Sizing->ElementSize(ball.Center, label);
-    return ball.Radius2 > size * size;
+    return this->Sizing && label != 0 &&
+      !this->Sizing->IsSmallEnough(this->Near.Circumball(t), label);
   }
 
   /** Whether a simplex would become an element of a bad shape. Those of a label have good ones. */

@@ -8,6 +8,7 @@
 #define voxplex_SizingField_h
 
 #include "Domain/Domain.h"
+#include "Geometry/Circumball.h"
 #include "Sizing/BaseDistance.h"
 #include "Sizing/InterfaceSizes.h"
 #include "Sizing/LocalDelta.h"
@@ -199,6 +200,16 @@ public:
     const double size = this->Of.Size->Evaluate(p, this->Image.LabelValue(label));
     return size > 0.0 ? std::max(size, this->SmallestSize)
                       : std::numeric_limits<double>::infinity();
+  }
+
+  /**
+   * Whether a circumball is smaller than the elements of a label may be there: a little smaller, for rounding.
+   */
+  bool IsSmallEnough(const Circumball<D>& ball, LabelId label) const
+  {
+    constexpr double Below = 1.0 - 1e-9;
+    const double size = Below * this->ElementSize(ball.Center, label);
+    return ball.Radius2 < size * size;
   }
 
 private:

@@ -88,9 +88,6 @@ public:
 private:
   using Corners = typename ComponentGuard<D>::Corners;
 
-  /** Squared circumradii stay below this times the squared size: a little less, for rounding. */
-  static constexpr double BelowSize = 1.0 - 1e-9;
-
   /** Simplices without bounds keep at least this part of their volume. */
   static constexpr double VolumeKept = 0.1;
 
@@ -134,7 +131,8 @@ private:
    */
   bool HasRightSize(const Circumball<D>& ball, const Circumball<D>& before, LabelId label) const
   {
-    if (!this->Bounds.Sizing)
+    const SizingField<D>* const sizing = this->Bounds.Sizing;
+    if (!sizing)
     {
       return true;
     }
@@ -142,17 +140,11 @@ private:
     {
       return false;
     }
-    const double size = this->Bounds.Sizing->ElementSize(ball.Center, label);
-    if (ball.Radius2 < BelowSize * size * size)
-    {
-      return true;
-    }
-    if (this->Surfaces.Label(before.Center) != label)
-    {
-      return false;
-    }
-    const double sizeBefore = this->Bounds.Sizing->ElementSize(before.Center, label);
-    return ball.Radius2 * sizeBefore * sizeBefore <= before.Radius2 * size * size;
+    const double size = sizing->ElementSize(ball.Center, label);
+    const double sizeBefore = sizing->ElementSize(before.Center, label);
+    return sizing->IsSmallEnough(ball, label) ||
+      (this->Surfaces.Label(before.Center) == label &&
+        ball.Radius2 * sizeBefore * sizeBefore <= before.Radius2 * size * size);
   }
 
   const Complex<D>& Mesh;

@@ -7,14 +7,6 @@
 namespace voxplex
 {
 
-namespace
-{
-
-/** Circumradii stay below this times the size: a little less, for rounding. */
-constexpr double BelowSize = 1.0 - 1e-9;
-
-} // namespace
-
 //------------------------------------------------------------------------------------------------
 bool PentatopeRules::Allows(const PentatopeShape& shape, double oldRatio, LabelId label) const
 {
@@ -22,18 +14,10 @@ bool PentatopeRules::Allows(const PentatopeShape& shape, double oldRatio, LabelI
   {
     return false;
   }
-  if (!this->Bounds.Sizing)
-  {
-    return true;
-  }
   // Sizes are asked for where the label is only, as in refinement.
-  const Point<4>& centre = shape.Ball.Center;
-  if (this->Surfaces.Label(centre) != label)
-  {
-    return false;
-  }
-  const double size = BelowSize * this->Bounds.Sizing->ElementSize(centre, label);
-  return shape.Ball.Radius2 < size * size;
+  return !this->Bounds.Sizing ||
+    (this->Surfaces.Label(shape.Ball.Center) == label &&
+      this->Bounds.Sizing->IsSmallEnough(shape.Ball, label));
 }
 
 bool PentatopeRules::IsOnPlane(const PentatopeComplex& complex, std::uint32_t s, unsigned i) const
