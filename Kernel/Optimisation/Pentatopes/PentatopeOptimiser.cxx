@@ -67,11 +67,11 @@ struct Context
   const PentatopeRules& Rules;
   const MoveLimits<4>& Limits;
   std::span<const Point<4>> Originals; ///< the points before any is moved
-  std::span<std::uint32_t>
-    Tried;                ///< of each vertex: the clock at the last try to move it; 0: never
+  /** Of each vertex, the clock when it was tried to be moved last; 0: never. */
+  std::span<std::uint32_t> Tried;
   double Tolerance = 0.0; ///< how far vertices may leave interfaces
-  std::size_t Round =
-    0; ///< pentatopes for which vertices are to be inserted; 0: in place of this, flips and moves
+  /** Pentatopes for which vertices are to be inserted. If there are none, there are flips and moves. */
+  std::size_t Round = 0;
 };
 
 //------------------------------------------------------------------------------------------------
@@ -100,12 +100,10 @@ public:
   }
 
   /** The same for the sake of the worst. */
-  bool RaiseWorst(std::uint32_t v, double target)
+  void RaiseWorst(std::uint32_t v, double target)
   {
-    const bool moves =
-      this->Smoother.Start(v) && this->Smoother.RaiseWorst(target, this->By.Tolerance);
-    this->Done.Moves += moves ? 1 : 0;
-    return moves;
+    this->Done.Moves +=
+      this->Smoother.Start(v) && this->Smoother.RaiseWorst(target, this->By.Tolerance) ? 1 : 0;
   }
 
   /** Moves the vertices of poor pentatopes, once each. Returns how many have moved. */
@@ -124,12 +122,13 @@ public:
     std::size_t moved = 0;
     for (const std::uint32_t v : vertices)
     {
-      if (this->IsNew(v))
+      if (this->IsNew(v) && this->Smoother.Start(v))
       {
         this->By.Tried[v] = this->Target.Clock;
-        moved += this->RaiseWorst(v, this->Mesh.Goal) ? 1 : 0;
+        moved += this->Smoother.RaiseWorst(this->Mesh.Goal, this->By.Tolerance) ? 1 : 0;
       }
     }
+    this->Done.Moves += moved;
     return moved;
   }
 

@@ -112,8 +112,8 @@ public:
 
   void Run()
   {
-    this->WorkInTiles(
-      Effort::Plain); // most of the poor ones go, so that few vertices need room afterwards
+    // At first without insertions: most of the poor ones go, so that few vertices need room afterwards.
+    this->WorkInTiles(Effort::Plain);
     this->WorkInTiles(Effort::Insertions);
     this->WorkOnAll(Effort::Insertions);
     this->WorkOnAll(Effort::MovesOffInterfaces);
