@@ -79,7 +79,7 @@ public:
         }
       }
       const Task task = this->Work[k];
-      if (!this->Target.Mesh().IsPoor(task.Cell))
+      if (!this->Target.Mesh().IsPoor(task.Id))
       {
         continue;
       }
@@ -87,7 +87,7 @@ public:
       {
         left.push_back(task);
       }
-      else if (this->How.Improve(task.Cell))
+      else if (this->How.Improve(task.Id))
       {
         ++better;
         for (const std::uint32_t t : this->Target.Poor)
@@ -95,22 +95,22 @@ public:
           this->Work.push_back({ t, 0 });
         }
         this->Target.Poor.clear();
-        left.push_back({ task.Cell, 0 });
+        left.push_back({ task.Id, 0 });
       }
       else
       {
-        left.push_back({ task.Cell, this->Target.Clock });
+        left.push_back({ task.Id, this->Target.Clock });
       }
     }
     // Keep each cell once; if one of its entries was tried, keep that entry.
     std::sort(left.begin(), left.end(),
       [](const Task& a, const Task& b)
-      { return a.Cell < b.Cell || (a.Cell == b.Cell && a.Tried > b.Tried); });
+      { return a.Id < b.Id || (a.Id == b.Id && a.Tried > b.Tried); });
     this->Work.clear();
     for (const Task& task : left)
     {
-      if (this->Target.Mesh().IsPoor(task.Cell) &&
-        (this->Work.empty() || this->Work.back().Cell != task.Cell))
+      if (this->Target.Mesh().IsPoor(task.Id) &&
+        (this->Work.empty() || this->Work.back().Id != task.Id))
       {
         this->Work.push_back(task);
       }
@@ -124,7 +124,7 @@ public:
     std::vector<std::uint32_t> cells;
     for (const Task& task : this->Work)
     {
-      cells.push_back(task.Cell);
+      cells.push_back(task.Id);
     }
     return cells;
   }
@@ -132,7 +132,7 @@ public:
 private:
   struct Task
   {
-    std::uint32_t Cell;
+    std::uint32_t Id;
     std::uint32_t Tried; ///< the patch's clock at the last try; 0: never tried
   };
 
@@ -142,7 +142,7 @@ private:
   bool HasChanged(const Task& task) const
   {
     const Complex<D>& mesh = this->Target.Mesh();
-    const auto& v = mesh.Cells[task.Cell].V;
+    const auto& v = mesh.Cells[task.Id].V;
     return task.Tried == 0 ||
       std::any_of(
         v.begin(), v.end(), [&](std::uint32_t w) { return mesh.Changes[w] > task.Tried; });
