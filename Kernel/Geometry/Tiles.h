@@ -74,7 +74,7 @@ struct TileLimits
   std::size_t FewestItems = 512; ///< a part with fewer items is not cut
   /** The largest fraction of a part's items whose balls meet the plane. */
   double MostInTheWay = D == 3 ? 0.25 : 0.3;
-  unsigned MostCuts = 5; ///< of a point's surroundings: there are at most 2^MostCuts tiles
+  unsigned MostCuts = 5; ///< one within the other: there are at most 2^MostCuts tiles
 };
 
 /**

@@ -105,7 +105,7 @@ public:
         work.insert(work.end(), tile.Across.begin(), tile.Across.end());
       }
       std::sort(work.begin(), work.end());
-      this->RunInBlocks(this->BlocksOf(tiling), std::move(inside), spare, task);
+      this->RunInBlocks(this->BlocksOf(tiling), inside, spare, task);
     }
   }
 

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -20,26 +19,10 @@
 #include <vector>
 
 using namespace voxplex;
+using checks::Strip;
 
 namespace
 {
-
-/** A strip of tetrahedra along a helix: tetrahedron t has the vertices t to t + 3. */
-TetrahedralComplex Strip(std::uint32_t length)
-{
-  SimplexMesh<3> mesh;
-  for (std::uint32_t v = 0; v < length + 3; ++v)
-  {
-    const double angle = 2.3 * v;
-    mesh.Points.push_back({ std::cos(angle), std::sin(angle), 0.3 * v });
-  }
-  for (std::uint32_t t = 0; t < length; ++t)
-  {
-    mesh.Simplices.push_back({ t, t + 1, t + 2, t + 3 });
-    mesh.Labels.push_back(1);
-  }
-  return checks::ComplexOf<3>(mesh);
-}
 
 /** What the tasks of a schedule were given. */
 struct Given

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -16,27 +15,10 @@ namespace
 
 constexpr std::uint32_t Length = 20;
 
-/** A strip of tetrahedra along a helix: tetrahedron t has the vertices t to t + 3. */
-TetrahedralComplex Strip()
-{
-  SimplexMesh<3> mesh;
-  for (std::uint32_t v = 0; v < Length + 3; ++v)
-  {
-    const double angle = 2.3 * v;
-    mesh.Points.push_back({ std::cos(angle), std::sin(angle), 0.3 * v });
-  }
-  for (std::uint32_t t = 0; t < Length; ++t)
-  {
-    mesh.Simplices.push_back({ t, t + 1, t + 2, t + 3 });
-    mesh.Labels.push_back(1);
-  }
-  return checks::ComplexOf<3>(mesh);
-}
-
 /** The room of each vertex; the rooms' number stands for none. */
 std::vector<std::uint32_t> RoomsOf(const std::vector<std::uint32_t>& cells, unsigned edges)
 {
-  return RoomsAround(Strip(), cells, edges).OfVertex;
+  return RoomsAround(checks::Strip(Length), cells, edges).OfVertex;
 }
 
 TEST(Rooms, HaveTheVerticesThatEdgesLeadTo)
@@ -54,9 +36,9 @@ TEST(Rooms, HaveTheVerticesThatEdgesLeadTo)
 TEST(Rooms, ThatMeetAreOne)
 {
   // Vertices 2 to 5 and 11 to 14; one edge leads three vertices on.
-  EXPECT_EQ(RoomsAround(Strip(), std::vector<std::uint32_t>{ 11, 2 }, 0).Number, 2u);
-  EXPECT_EQ(RoomsAround(Strip(), std::vector<std::uint32_t>{ 11, 2 }, 1).Number, 1u);
-  EXPECT_EQ(RoomsAround(Strip(), std::vector<std::uint32_t>{ 12, 2 }, 1).Number, 2u);
+  EXPECT_EQ(RoomsAround(checks::Strip(Length), std::vector<std::uint32_t>{ 11, 2 }, 0).Number, 2u);
+  EXPECT_EQ(RoomsAround(checks::Strip(Length), std::vector<std::uint32_t>{ 11, 2 }, 1).Number, 1u);
+  EXPECT_EQ(RoomsAround(checks::Strip(Length), std::vector<std::uint32_t>{ 12, 2 }, 1).Number, 2u);
 }
 
 TEST(Rooms, AreNumberedByTheirFirstVertices)
@@ -70,7 +52,7 @@ TEST(Rooms, AreNumberedByTheirFirstVertices)
 
 TEST(Rooms, ContainTheTetrahedraThatHaveAllVerticesThere)
 {
-  const Rooms rooms = RoomsAround(Strip(), std::vector<std::uint32_t>{ 2, 6 }, 0);
+  const Rooms rooms = RoomsAround(checks::Strip(Length), std::vector<std::uint32_t>{ 2, 6 }, 0);
   ASSERT_EQ(rooms.Number, 2u);
   EXPECT_TRUE(rooms.Contain({ 2, 3, 4, 5 }));
   EXPECT_TRUE(rooms.Contain({ 6, 7, 8, 9 }));

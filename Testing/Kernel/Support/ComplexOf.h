@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <stop_token>
@@ -196,6 +197,23 @@ void ExtractMesh(const Triangulation<D>& triangulation, const Domain<D>& domain,
   mesh = SimplexMesh<D>();
   ExtractMesh<D>(triangulation, domain, LabelSimplices(triangulation, domain, threads, stop), mesh,
     threads, stop);
+}
+
+/** A strip of tetrahedra along a helix: tetrahedron t has the vertices t to t + 3. */
+inline TetrahedralComplex Strip(std::uint32_t length)
+{
+  SimplexMesh<3> mesh;
+  for (std::uint32_t v = 0; v < length + 3; ++v)
+  {
+    const double angle = 2.3 * v;
+    mesh.Points.push_back({ std::cos(angle), std::sin(angle), 0.3 * v });
+  }
+  for (std::uint32_t t = 0; t < length; ++t)
+  {
+    mesh.Simplices.push_back({ t, t + 1, t + 2, t + 3 });
+    mesh.Labels.push_back(1);
+  }
+  return ComplexOf<3>(mesh);
 }
 
 } // namespace voxplex::checks
