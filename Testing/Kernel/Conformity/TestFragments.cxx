@@ -393,6 +393,38 @@ TEST(ComponentPieces, OfALabelWithOneComponentBelongToItWhereverTheyAre)
   EXPECT_EQ(pieces.All()[1].Component, 0u);
 }
 
+// A piece across two components belongs to the one with most of it, whether all elements are looked at or some.
+TEST(ComponentPieces, AreToldBySomeOfManyElements)
+{
+  TetrahedralComplex strip = Strip(5000); // along z, from 0 to 1500
+  for (Point<3>& p : strip.Points)
+  {
+    p = { p[0] + 2.0, p[1] + 2.0, p[2] };
+  }
+  for (const std::int64_t gap : { 500, 1000 })
+  {
+    const auto grid = GridGeometry<3>::Orthogonal({ 5, 5, 1510 }, { 1.0, 1.0, 1.0 });
+    std::vector<std::uint8_t> voxels(5 * 5 * 1510, 1);
+    std::fill_n(voxels.begin() + 25 * gap, 25, std::uint8_t{ 0 });
+    const LabelImage<3> image = LabelImage<3>::FromScalars<std::uint8_t>(voxels, grid);
+    const Components<3> components(image);
+    ASSERT_EQ(components.All().size(), 2u);
+    const ComponentPieces<3> all(strip.Elements(), components, image);
+    const ComponentPieces<3> some(strip.Elements(), components, image, PieceShares::OfSome);
+    ASSERT_EQ(all.All().size(), 1u);
+    ASSERT_EQ(some.All().size(), 1u);
+    const std::uint32_t larger = gap == 500 ? 1 : 0;
+    EXPECT_EQ(all.All()[0].Component, larger);
+    EXPECT_EQ(some.All()[0].Component, larger);
+    ASSERT_EQ(some.All()[0].Shares.size(), 2u);
+    for (std::size_t k = 0; k < 2; ++k) // of 5,000 elements every fourth
+    {
+      const double whole = all.All()[0].Shares[k].second;
+      EXPECT_NEAR(some.All()[0].Shares[k].second, 0.25 * whole, 0.02 * whole);
+    }
+  }
+}
+
 TEST(ComponentPieces, AreThoseOfTheExtractedMesh)
 {
   for (unsigned seed = 1; seed <= 6; ++seed)
