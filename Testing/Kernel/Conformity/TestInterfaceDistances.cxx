@@ -284,6 +284,27 @@ TEST(InterfaceDistances, GoesOnForEdges)
   EXPECT_GT(sampling.TakeSeeds().size(), 0u);
 }
 
+// If the ball stays as large, coarse meshes get many elements there: the knee atlas 13 times as many at a delta of 60.
+TEST(InterfaceDistances, SamplesLessFarAroundAnEdgeEachTime)
+{
+  const LabelImage<3> image = phantoms::TouchingLabels(30);
+  const ImageDomain<3> domain(image, 1.0);
+  const double delta = 40.0;
+  LocalDelta<3> local(image);
+  const SizingField<3> sizing(domain, { .Base = { delta }, .Local = &local });
+  LocalSampling<3> sampling(image, image, domain.GetSites(), domain, sizing, local, {});
+  const Point<3> edge = InterfaceVerticesOf(Mesh(image, 4.0, 0)).front();
+  std::vector<std::size_t> points{ 0 };
+  do
+  {
+    points.push_back(sampling.SampleInterfaces({}, { edge }));
+    sampling.TakeSeeds();
+  } while (points.back() > 0);
+  EXPECT_EQ(points.size(), 11u); // nothing; spacings of 32, 16 ... 0.25, 0.2; nothing
+  EXPECT_GT(points[1], 100u);
+  EXPECT_LT(points[points.size() - 2], 20u);
+}
+
 TEST(InterfaceDistances, CanBeCancelled)
 {
   const LabelImage<3> image = BlockWithHair();
