@@ -132,7 +132,8 @@ private:
     this->ForEachWay(p, of, leeway == repair::Leeway::Usual,
       [&](Simplices way)
       {
-        isDone = this->Give({ std::move(way), this->Pieces.All()[p].Label }, leeway);
+        isDone = this->StaysBeside(this->Pieces.All()[p].Component, way) &&
+          this->Give({ std::move(way), this->Pieces.All()[p].Label }, leeway);
         return isDone || --most == 0;
       });
     return isDone;
@@ -257,6 +258,33 @@ private:
     const auto& v = this->Mesh.GetSimplex(s).V;
     return std::all_of(
       v.begin(), v.end(), [this](VertexId x) { return this->Near.IsOnInterface(x); });
+  }
+
+  /** Whether the vertices that a way brings onto interfaces are between voxels of the component and others. */
+  bool StaysBeside(std::uint32_t component, const Simplices& way) const
+  {
+    const auto isBeside = [&](VertexId v)
+    {
+      const Point<D> at = this->Of.Image.ToCrop(this->Near.Position(v));
+      typename GridGeometry<D>::Index low;
+      typename GridGeometry<D>::Index high;
+      for (std::size_t a = 0; a < D; ++a)
+      {
+        low[a] = static_cast<std::int64_t>(std::floor(at[a]));
+        high[a] = low[a] + 1;
+      }
+      std::array<bool, 2> has{};
+      ForEachIndex(
+        low, high, [&](const auto& voxel) { has[this->Of.All.At(voxel) == component] = true; });
+      return has[0] && has[1];
+    };
+    return std::all_of(way.begin(), way.end(),
+      [&](SimplexId s)
+      {
+        const auto& v = this->Mesh.GetSimplex(s).V;
+        return std::all_of(v.begin(), v.end(),
+          [&](VertexId x) { return this->Near.IsOnInterface(x) || isBeside(x); });
+      });
   }
 
   void AddGap(std::uint32_t component, const Simplices& way)

@@ -53,8 +53,8 @@ struct JoinedPieces
  * a facet or of an edge in one of its voxels. If ChangeRules allow it, these simplices get the label of the
  * component. Some of the next best ways are tried, too. Where none is allowed,
  * - a large piece has a gap on the first one, which needs finer sampling. If nothing is sampled any more,
- *   ways may also lead through simplices with vertices off the interfaces: where a part of one voxel turns, the
- *   label field does not connect it, however finely it is sampled;
+ *   ways may also lead through simplices with vertices off the interfaces, between voxels of the component and
+ *   others: where a part of one voxel turns, the label field does not connect it, however finely it is sampled;
  * - one that has no gap, or that finer sampling has not helped, gets the label beside it with the largest common
  *   area that the rules allow, if it is smaller than a voxel, or has no gap and at most five simplices.
  *
