@@ -74,8 +74,11 @@ Table VolumesOfCuts(const SimplexMesh<4>& mesh, const LabelImage<4>& image)
     const double volume = SignedVolume<4>(v.data()) / step;
     const auto id = static_cast<std::size_t>(
       std::lower_bound(values.begin(), values.end(), mesh.Labels[s]) - values.begin());
+    // Where refinement gave way, an element may reach beyond the frames.
+    const auto first =
+      std::max<std::int64_t>(0, static_cast<std::int64_t>(std::ceil(times.front())));
     const auto last = std::min(frames - 1, static_cast<std::int64_t>(std::floor(times.back())));
-    for (auto k = static_cast<std::int64_t>(std::ceil(times.front())); k <= last; ++k)
+    for (std::int64_t k = first; k <= last; ++k)
     {
       volumes.At(k, id) += volume * CutDensity(times, static_cast<double>(k), k == 0);
     }

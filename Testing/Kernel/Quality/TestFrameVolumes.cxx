@@ -61,3 +61,23 @@ TEST(FrameVolumes, TheWorstFrame)
   EXPECT_LT(off.Share, 0.1);
   EXPECT_GT(off.Number, 2u);
 }
+
+// It is cut at the frames that there are.
+TEST(FrameVolumes, AnElementBeginsBeforeTheFirstFrame)
+{
+  const LabelImage<4> image = ImageOf(PulsatingBalls(9, 1.0));
+  SimplexMesh<4> mesh;
+  mesh.Points = { { 0, 0, 0, -2.0 }, { 48, 0, 0, 1.0 }, { 0, 48, 0, 1.0 }, { 0, 0, 48, 1.0 },
+    { 0, 0, 0, 12.0 } };
+  mesh.Simplices = { { 0, 1, 2, 3, 4 } };
+  mesh.Labels = { 2 };
+  const double volume = SignedVolume<4>(mesh.PointsOf(0).data());
+  const FramesOff off = CompareFrames(mesh, image);
+  EXPECT_EQ(off.Label, 2); // by far too large
+  const double cut = volume *
+    CutDensity({ -2.0, 1.0, 1.0, 1.0, 12.0 }, static_cast<double>(off.Frame), off.Frame == 0);
+  const auto scalars = PulsatingBalls(9, 1.0).Scalars();
+  const auto first = scalars.begin() + off.Frame * 24 * 24 * 24;
+  EXPECT_NEAR(off.Share * static_cast<double>(std::count(first, first + 24 * 24 * 24, 2)),
+    std::abs(cut), 1e-6);
+}
