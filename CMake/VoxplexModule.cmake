@@ -47,11 +47,8 @@ vtk_module_add_module(VTK::Voxplex
     ${voxplex_filters}/Private/OutputArrays.h
     ${voxplex_filters}/Private/QualityRun.h
     ${voxplex_filters}/Private/QualityTables.h
-    ${voxplex_filters}/Private/SegmentationRepair.h
     ${voxplex_filters}/Private/SimplexMeshRun.h
     ${voxplex_filters}/Private/SmpThreads.h
-    ${voxplex_filters}/Private/ThinRidges.h
-    ${voxplex_filters}/Private/VoxelBox.h
   SOURCES
     ${voxplex_filters}/Private/ChosenArray.cxx
     ${voxplex_filters}/Private/ElementSizes.cxx
@@ -63,12 +60,12 @@ vtk_module_add_module(VTK::Voxplex
     ${voxplex_filters}/Private/QualityJson.cxx
     ${voxplex_filters}/Private/QualityRun.cxx
     ${voxplex_filters}/Private/QualityTables.cxx
-    ${voxplex_filters}/Private/SegmentationChecks.cxx
-    ${voxplex_filters}/Private/SegmentationRepair.cxx
     ${voxplex_filters}/Private/SmpThreads.cxx
-    ${voxplex_filters}/Private/ThinRidges.cxx
     ${voxplex_root}/Segmentation/HiddenVoxels.cxx
     ${voxplex_root}/Segmentation/LabelTable.cxx
+    ${voxplex_root}/Segmentation/SegmentationChecks.cxx
+    ${voxplex_root}/Segmentation/SegmentationRepair.cxx
+    ${voxplex_root}/Segmentation/ThinRidges.cxx
     $<TARGET_OBJECTS:VoxplexExact>
     $<FILTER:$<TARGET_OBJECTS:VoxplexKernel>,EXCLUDE,[.]gch$> # a precompiled header is no object
     $<TARGET_OBJECTS:VoxplexParameters>)

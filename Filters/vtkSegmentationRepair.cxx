@@ -10,7 +10,7 @@
 #include "Private/Execution.h"
 #include "Private/Lists.h"
 #include "Private/MeshingMessages.h"
-#include "Private/SegmentationRepair.h"
+#include "SegmentationRepair.h"
 
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"

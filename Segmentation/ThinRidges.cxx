@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/ThinRidges.h"
+#include "ThinRidges.h"
 
 namespace voxplex
 {

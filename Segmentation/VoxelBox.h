@@ -4,8 +4,8 @@
  * @file VoxelBox.h
  * @brief Boxes of voxels, and blocks of them.
  */
-#ifndef voxplex_Private_VoxelBox_h
-#define voxplex_Private_VoxelBox_h
+#ifndef voxplex_VoxelBox_h
+#define voxplex_VoxelBox_h
 
 #include "Image/GridGeometry.h"
 

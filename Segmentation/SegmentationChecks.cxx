@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is suspicious about a label image: the part of SegmentationRepair that changes nothing.
 #include "Image/Components.h"
-#include "Private/SegmentationRepair.h"
+#include "SegmentationRepair.h"
 
 #include <algorithm>
 #include <cstdlib>

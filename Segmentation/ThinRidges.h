@@ -4,11 +4,11 @@
  * @file ThinRidges.h
  * @brief Where a label is thin.
  */
-#ifndef voxplex_Private_ThinRidges_h
-#define voxplex_Private_ThinRidges_h
+#ifndef voxplex_ThinRidges_h
+#define voxplex_ThinRidges_h
 
 #include "Image/FeatureTransform.h"
-#include "Private/VoxelBox.h"
+#include "VoxelBox.h"
 
 #include <optional>
 #include <vector>

@@ -4,12 +4,12 @@
  * @file SegmentationRepair.h
  * @brief Repairs of a label image, and what is suspicious about one. vtkSegmentationRepair.h says what each does.
  */
-#ifndef voxplex_Private_SegmentationRepair_h
-#define voxplex_Private_SegmentationRepair_h
+#ifndef voxplex_SegmentationRepair_h
+#define voxplex_SegmentationRepair_h
 
 #include "Image/LabelImage.h"
 #include "Parallel/ParallelFor.h"
-#include "Private/VoxelBox.h"
+#include "VoxelBox.h"
 
 #include <functional>
 #include <limits>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/SegmentationRepair.h"
+#include "SegmentationRepair.h"
 
 #include "Base/Error.h"
 #include "Image/Components.h"
 #include "Image/FeatureTransform.h"
 #include "Parallel/ParallelFor.h"
-#include "Private/ThinRidges.h"
+#include "ThinRidges.h"
 
 #include <algorithm>
 #include <array>
