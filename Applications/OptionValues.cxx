@@ -287,9 +287,9 @@ int ParseWhole(const std::string& option, const std::string& text, int low, int 
   return *value;
 }
 
-io::Space ParseSpace(const std::string& option, const std::string& text)
+Space ParseSpace(const std::string& option, const std::string& text)
 {
-  return ParseWord(option, text, { "lps", "ras" }) == 0 ? io::Space::LPS : io::Space::RAS;
+  return ParseWord(option, text, { "lps", "ras" }) == 0 ? Space::LPS : Space::RAS;
 }
 
 UserInterface ParseWords(const std::string& option, const std::string& text)

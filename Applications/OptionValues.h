@@ -70,7 +70,7 @@ int ParseWord(
 double ParseParameter(const std::string& option, const std::string& text,
   const MeshingParameter& parameter, const ParameterRange& range);
 
-io::Space ParseSpace(const std::string& option, const std::string& text);
+Space ParseSpace(const std::string& option, const std::string& text);
 
 /** Whose words errors and warnings have: "shell", "slicer" or "python". */
 UserInterface ParseWords(const std::string& option, const std::string& text);

@@ -47,7 +47,7 @@ struct ReadingOptions
   std::vector<double>
     Direction; ///< nine numbers, row by row; columns are directions of axes, in Space
   bool DataFilesAnywhere = false;
-  io::Space Space = io::Space::LPS; ///< of the output
+  voxplex::Space Space = voxplex::Space::LPS; ///< of the output
 };
 
 /** What the program does, by its first word. */

@@ -204,7 +204,7 @@ vtkSmartPointer<vtkSegmentationReader> ReadFile(
   }
   SetPlace(reader, options);
   reader->SetDataFilesAnywhere(options.DataFilesAnywhere);
-  reader->SetSpace(options.Space == io::Space::LPS ? vtkSegmentationReader::SPACE_LPS
+  reader->SetSpace(options.Space == Space::LPS ? vtkSegmentationReader::SPACE_LPS
                                                    : vtkSegmentationReader::SPACE_RAS);
   Warn(ReadImage(reader, words));
   return reader;

@@ -4,11 +4,9 @@
 
 #include <vtkCallbackCommand.h>
 #include <vtkDataArray.h>
-#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkStringArray.h>
 #include <vtkTypeTraits.h>
 
 #include <cstddef>
@@ -95,14 +93,6 @@ vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space, 
   result->SetDirectionMatrix(direction.data());
   result->GetPointData()->SetScalars(ShareScalars(image, frame));
   return result;
-}
-
-void AddSpaceArray(vtkDataObject* data, Space space)
-{
-  vtkNew<vtkStringArray> array;
-  array->SetName("SPACE");
-  array->InsertNextValue(ToString(space));
-  data->GetFieldData()->AddArray(array);
 }
 
 void KeepLabelsOf(const ScalarImage& image, LabelTable& table)

@@ -13,7 +13,6 @@
 
 #include <vtkSmartPointer.h>
 
-class vtkDataObject;
 class vtkImageData;
 
 namespace voxplex::io
@@ -24,9 +23,6 @@ namespace voxplex::io
  * Space::RAS, the first two physical coordinates change sign.
  */
 vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space, int frame = 0);
-
-/** Adds the field-data string array SPACE, which 3D Slicer reads. */
-void AddSpaceArray(vtkDataObject* data, Space space);
 
 /** Removes labels that no voxel of any frame has. Ends when all of them have been seen. */
 void KeepLabelsOf(const ScalarImage& image, LabelTable& table);

@@ -143,12 +143,6 @@ std::vector<Mask> MasksOf(vtkInformationVector* inputs, const std::map<int, std:
   return masks;
 }
 
-voxplex::io::Space SpaceOf(const Mask& mask)
-{
-  const std::vector<std::string> texts = voxplex::TextsOf(mask.Image->GetFieldData(), "SPACE");
-  return texts == std::vector<std::string>{ "RAS" } ? Space::RAS : Space::LPS;
-}
-
 /** As messages name it. */
 std::string Shown(const std::vector<Mask>& masks, const Mask& mask)
 {
@@ -286,7 +280,8 @@ int vtkMasksToSegmentation::RequestInformation(
     const std::vector<Mask> masks = MasksOf(inputVector[0], this->MaskNames);
     MasksOnGrid joined(this->ResampleMasks);
     OfferGrids(joined, masks);
-    const auto grid = ToVTKImage(joined.FindGrid(), SpaceOf(masks.front()));
+    const auto grid =
+      ToVTKImage(joined.FindGrid(), voxplex::GetSpace(masks.front().Image->GetFieldData()));
     vtkInformation* information = outputVector->GetInformationObject(0);
     information->Set(Pipeline::WHOLE_EXTENT(), grid->GetExtent(), 6);
     information->Set(vtkDataObject::ORIGIN(), grid->GetOrigin(), 3);
@@ -327,8 +322,9 @@ int vtkMasksToSegmentation::RequestData(
       this->Overlap == OVERLAP_ORDER ? Overlap::Order : Overlap::Smallest);
     KeepLabelsOf(answer.Image, answer.Labels);
     vtkImageData* const output = vtkImageData::GetData(outputVector);
-    output->ShallowCopy(ToVTKImage(answer.Image, SpaceOf(masks.front())));
-    AddSpaceArray(output, SpaceOf(masks.front()));
+    const voxplex::Space space = voxplex::GetSpace(masks.front().Image->GetFieldData());
+    output->ShallowCopy(ToVTKImage(answer.Image, space));
+    voxplex::SetSpace(output->GetFieldData(), space);
     voxplex::SetLabelTable(output->GetFieldData(), answer.Labels);
     this->Warnings = std::move(answer.Warnings);
   }

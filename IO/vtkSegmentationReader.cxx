@@ -276,7 +276,7 @@ bool vtkSegmentationReader::Read()
 void vtkSegmentationReader::PlaceImage()
 {
   ScalarImage& image = this->Private->Image;
-  const std::array<double, 3> signs = SignsFromLPS(static_cast<voxplex::io::Space>(this->Space));
+  const std::array<double, 3> signs = SignsFromLPS(static_cast<voxplex::Space>(this->Space));
   const bool hasDirection = std::any_of(std::begin(this->Direction), std::end(this->Direction),
     [](double number) { return number != 0; });
   std::array<Vector3, 3> steps{};
@@ -360,7 +360,7 @@ int vtkSegmentationReader::RequestInformation(
     return 0;
   }
   const ScalarImage& image = this->Private->Image;
-  const auto space = static_cast<voxplex::io::Space>(this->Space);
+  const auto space = static_cast<voxplex::Space>(this->Space);
   const auto frame = ToVTKImage(image, space);
   information->Set(Pipeline::WHOLE_EXTENT(), frame->GetExtent(), 6);
   information->Set(vtkDataObject::ORIGIN(), frame->GetOrigin(), 3);
@@ -390,13 +390,13 @@ int vtkSegmentationReader::RequestData(
   const bool hasTime = information->Has(Pipeline::UPDATE_TIME_STEP());
   const int frame =
     hasTime ? NearestFrame(image, information->Get(Pipeline::UPDATE_TIME_STEP())) : 0;
-  const auto space = static_cast<voxplex::io::Space>(this->Space);
+  const auto space = static_cast<voxplex::Space>(this->Space);
   output->ShallowCopy(ToVTKImage(image, space, frame));
   if (image.Frames > 1)
   {
     output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), image.TimeOf(frame));
   }
-  AddSpaceArray(output, space);
+  voxplex::SetSpace(output->GetFieldData(), space);
   voxplex::SetLabelTable(output->GetFieldData(), this->Private->Labels);
   return 1;
 }

@@ -118,18 +118,17 @@ ScalarType ScalarTypeOf(vtkDataArray* array)
   return *type;
 }
 
-/** As field data say, which vtkSegmentationReader and 3D Slicer write. */
 Space SpaceOf(vtkImageData* image, Reading& reading)
 {
-  const std::vector<std::string> texts = TextsOf(image->GetFieldData(), "SPACE");
-  const std::string space = texts.size() == 1 ? texts.front() : ToString(Space::LPS);
-  if (space != ToString(Space::LPS) && space != ToString(Space::RAS))
+  std::string unknown;
+  const Space space = GetSpace(image->GetFieldData(), &unknown);
+  if (!unknown.empty())
   {
     reading.Warnings.push_back(
-      "it does not say where left, posterior and superior are (SPACE is '" + Excerpt(space) +
+      "it does not say where left, posterior and superior are (SPACE is '" + Excerpt(unknown) +
       "'); its coordinates are taken for LPS");
   }
-  return space == ToString(Space::RAS) ? Space::RAS : Space::LPS;
+  return space;
 }
 
 /** Points or cells lie from the first on; a cell is half a step from its first point. */

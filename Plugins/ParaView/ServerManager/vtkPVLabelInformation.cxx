@@ -17,8 +17,6 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
 
 vtkStandardNewMacro(vtkPVLabelInformation);
 
@@ -83,32 +81,13 @@ void vtkPVLabelInformation::ReadCells(vtkDataObject* data)
 
 void vtkPVLabelInformation::ReadTable(vtkFieldData* fields)
 {
-  vtkDataArray* const values = fields ? fields->GetArray("LabelValues") : nullptr;
-  if (values == nullptr || values->GetNumberOfComponents() != 1)
+  for (const auto& [value, entry] : voxplex::GetLabelTable(fields).Entries)
   {
-    return;
+    LabelEntry& label = this->Labels[value];
+    label.Name = entry.Name;
+    label.HasColor = entry.Color.has_value();
+    label.Color = entry.Color.value_or(label.Color);
   }
-  const vtkIdType count = values->GetNumberOfTuples();
-  const std::vector<std::string> names = voxplex::TextsOf(fields, "LabelNames");
-  vtkDataArray* const colors = fields->GetArray("LabelColors");
-  const bool hasNames = static_cast<vtkIdType>(names.size()) == count;
-  const bool hasColors =
-    colors && colors->GetNumberOfComponents() == 3 && colors->GetNumberOfTuples() == count;
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    LabelEntry& label = this->Labels[static_cast<vtkTypeInt64>(values->GetTuple1(i))];
-    if (hasNames)
-    {
-      label.Name = names[static_cast<std::size_t>(i)];
-    }
-    if (hasColors)
-    {
-      colors->GetTuple(i, label.Color.data());
-      label.HasColor = std::isfinite(label.Color[0] + label.Color[1] + label.Color[2]);
-      label.Color = label.HasColor ? label.Color : std::array<double, 3>{};
-    }
-  }
-  this->Labels.erase(0);
 }
 
 void vtkPVLabelInformation::AddInformation(vtkPVInformation* other)

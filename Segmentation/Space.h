@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Space.h
- * @brief The patient coordinate systems that images and meshes lie in.
+ * @brief The patient coordinate systems that images and meshes lie in, and the field data that say which.
  */
-#ifndef voxplex_io_Space_h
-#define voxplex_io_Space_h
+#ifndef voxplex_Space_h
+#define voxplex_Space_h
 
 #include <array>
+#include <string>
 
-namespace voxplex::io
+class vtkFieldData;
+
+namespace voxplex
 {
 
 /** LPS is that of DICOM and ITK, RAS that of NIfTI. */
@@ -31,6 +34,15 @@ inline std::array<double, 3> SignsFromLPS(Space space)
                              : std::array<double, 3>{ -1.0, -1.0, 1.0 };
 }
 
-} // namespace voxplex::io
+/**
+ * As the array SPACE says, a text that vtkSegmentationReader and 3D Slicer write; LPS if there is none.
+ * @param unknown receives another text, which is taken for LPS; may be null
+ */
+Space GetSpace(vtkFieldData* fields, std::string* unknown = nullptr);
+
+/** Adds the array SPACE. */
+void SetSpace(vtkFieldData* fields, Space space);
+
+} // namespace voxplex
 
 #endif
