@@ -61,7 +61,7 @@ vtk_module_add_module(VTK::Voxplex
     ${voxplex_filters}/Private/QualityRun.cxx
     ${voxplex_filters}/Private/QualityTables.cxx
     ${voxplex_filters}/Private/SmpThreads.cxx
-    ${voxplex_root}/Segmentation/HiddenVoxels.cxx
+    ${voxplex_root}/Segmentation/ImageVoxels.cxx
     ${voxplex_root}/Segmentation/LabelTable.cxx
     ${voxplex_root}/Segmentation/SegmentationChecks.cxx
     ${voxplex_root}/Segmentation/SegmentationRepair.cxx

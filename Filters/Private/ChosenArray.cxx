@@ -4,7 +4,7 @@
 
 #include "Base/Error.h"
 #include "Base/NumberText.h"
-#include "HiddenVoxels.h"
+#include "ImageVoxels.h"
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
@@ -76,34 +76,17 @@ ImageFrame FrameOf(vtkImageData* image, bool cells, const std::string& what)
   image->GetOrigin(origin.data());
   Check(spacing, true, "spacing of the " + what);
   Check(origin, false, "origin of the " + what);
-  GridGeometry<3>::Index dimensions;
-  std::array<Point<3>, 3> steps;
-  Point<3> first = origin;
-  const int* const extent = image->GetExtent();
-  for (int axis = 0; axis < 3; ++axis)
+  const double* const cosines = image->GetDirectionMatrix()->GetData();
+  if (!std::all_of(cosines, cosines + 9, [](double cosine) { return std::isfinite(cosine); }))
   {
-    const auto a = static_cast<std::size_t>(axis);
-    const std::int64_t points = std::int64_t{ extent[2 * axis + 1] } - extent[2 * axis] + 1;
-    if (points < 1)
-    {
-      throw InputError("The " + what + " is empty.");
-    }
-    // VTK takes an image that is one point thick for one layer of cells.
-    dimensions[a] = cells ? std::max<std::int64_t>(points - 1, 1) : points;
-    const double index = extent[2 * axis] + (cells && points > 1 ? 0.5 : 0.0);
-    for (int r = 0; r < 3; ++r)
-    {
-      const double cosine = image->GetDirectionMatrix()->GetElement(r, axis);
-      if (!std::isfinite(cosine))
-      {
-        throw InputError(
-          "The direction matrix of the " + what + " has elements that are not finite.");
-      }
-      steps[a][static_cast<std::size_t>(r)] = cosine * spacing[a];
-      first[static_cast<std::size_t>(r)] += index * steps[a][static_cast<std::size_t>(r)];
-    }
+    throw InputError("The direction matrix of the " + what + " has elements that are not finite.");
   }
-  return MakeImageFrame(dimensions, steps, first, what);
+  const VoxelPlaces places = PlacesOf(image, cells);
+  if (*std::min_element(places.Dimensions.begin(), places.Dimensions.end()) < 1)
+  {
+    throw InputError("The " + what + " is empty.");
+  }
+  return MakeImageFrame(places.Dimensions, places.Steps, places.First, what);
 }
 
 std::vector<char> HiddenVoxelsOf(vtkImageData* image, bool cells, const std::string& what)

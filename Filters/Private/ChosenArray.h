@@ -40,7 +40,7 @@ struct ChosenArray
 };
 
 /**
- * If the image hides voxels (HiddenVoxels.h), the result has a copy of the array, in which they are
+ * If the image hides voxels (ImageVoxels.h), the result has a copy of the array, in which they are
  * background: the label 0, or NaN.
  *
  * @param chosen the array, null if there is none

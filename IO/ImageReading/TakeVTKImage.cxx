@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Readers.h"
 
-#include "HiddenVoxels.h"
+#include "ImageVoxels.h"
 #include "Placement.h"
 #include "Space.h"
 #include "Text.h"
@@ -131,36 +131,22 @@ Space SpaceOf(vtkImageData* image, Reading& reading)
   return space;
 }
 
-/** Points or cells lie from the first on; a cell is half a step from its first point. */
 void SetGeometry(ScalarImage& result, vtkImageData* image, Space space, bool areCells)
 {
-  const std::array<double, 3> signs = SignsFromLPS(space);
-  std::array<int, 3> points{};
-  image->GetDimensions(points.data());
-  const int* const extent = image->GetExtent();
-  std::array<double, 3> first{};
-  std::vector<std::int64_t> sizes;
-  std::array<Vector3, 3> steps{};
   for (int axis = 0; axis < 3; ++axis)
   {
-    const auto a = static_cast<std::size_t>(axis);
-    const bool isBetween = areCells && points[a] > 1;
-    sizes.push_back(isBetween ? points[a] - 1 : points[a]);
     RefuseIf(!(image->GetSpacing()[axis] > 0), "the voxel spacing along axis ", axis,
       " is not positive in its header: correct the header");
-    first[a] = extent[2 * axis] + (isBetween ? 0.5 : 0.0);
-    for (int row = 0; row < 3; ++row)
-    {
-      const auto r = static_cast<std::size_t>(row);
-      steps[a][r] =
-        signs[r] * image->GetDirectionMatrix()->GetElement(row, axis) * image->GetSpacing()[axis];
-    }
   }
-  Vector3 origin{};
-  image->TransformContinuousIndexToPhysicalPoint(first.data(), origin.data());
-  std::transform(signs.begin(), signs.end(), origin.begin(), origin.begin(), std::multiplies<>());
-  SetSizes(result, sizes);
-  Place(result, steps, origin);
+  VoxelPlaces places = PlacesOf(image, areCells);
+  const auto toLPS = [signs = SignsFromLPS(space)](Vector3& vector)
+  {
+    std::transform(signs.begin(), signs.end(), vector.begin(), vector.begin(), std::multiplies<>());
+  };
+  std::for_each(places.Steps.begin(), places.Steps.end(), toLPS);
+  toLPS(places.First);
+  SetSizes(result, { places.Dimensions.begin(), places.Dimensions.end() });
+  Place(result, places.Steps, places.First);
 }
 
 void CopyNumbers(vtkDataArray* array, std::byte* to, std::size_t size)

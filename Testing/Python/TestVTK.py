@@ -192,7 +192,7 @@ class Images(unittest.TestCase):
             self.assertTrue(same(expected, voxplex.mesh(image, 2.0, threads=1)), kind)
 
     def test_hidden_by_points_and_cells(self):
-        """By the rule of the program and the filters (HiddenVoxels.h)."""
+        """By the rule of the program and the filters (ImageVoxels.h)."""
         random = numpy.random.default_rng(1)
         flags = [0, 0, 0, vtkDataSetAttributes.HIDDENCELL, vtkDataSetAttributes.REFINEDCELL, vtkDataSetAttributes.DUPLICATECELL]
         point_flags = [0, 0, 0, vtkDataSetAttributes.HIDDENPOINT, vtkDataSetAttributes.DUPLICATEPOINT]

@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "HiddenVoxels.h"
+#include "ImageVoxels.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
 #include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -58,6 +60,28 @@ bool IsAmongHiddenCells(vtkImageData* image, vtkIdType point, vtkIdList* cells)
 } // namespace
 
 //----------------------------------------------------------------------------------------------------
+VoxelPlaces PlacesOf(vtkImageData* image, bool cells)
+{
+  VoxelPlaces places;
+  std::array<double, 3> first;
+  const int* const extent = image->GetExtent();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto a = static_cast<std::size_t>(axis);
+    const std::int64_t points = std::int64_t{ extent[2 * axis + 1] } - extent[2 * axis] + 1;
+    const bool isBetween = cells && points > 1;
+    places.Dimensions[a] = isBetween ? points - 1 : points;
+    first[a] = extent[2 * axis] + (isBetween ? 0.5 : 0.0);
+    for (int row = 0; row < 3; ++row)
+    {
+      places.Steps[a][static_cast<std::size_t>(row)] =
+        image->GetDirectionMatrix()->GetElement(row, axis) * image->GetSpacing()[axis];
+    }
+  }
+  image->TransformContinuousIndexToPhysicalPoint(first.data(), places.First.data());
+  return places;
+}
+
 std::vector<char> FindHiddenVoxels(vtkImageData* image, bool cells)
 {
   const bool hasHiddenPoints =
