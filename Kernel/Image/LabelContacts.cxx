@@ -206,14 +206,17 @@ bool LabelContacts<D>::TouchNear(
   }
   const double reach = FacetReach * std::sqrt(reach2) + this->Diagonal;
   const Point<D> index = this->Image.ToCrop(centroid);
-  constexpr double All = std::numeric_limits<double>::infinity();
-  for (const double most : { 0.0, 1.0, All }) // smaller boxes answer most questions
+  double most = 0.0; // voxels of the reach; smaller boxes answer most questions
+  for (bool isAll = false; !isAll; most = most == 0.0 ? 1.0 : 3.0 * most)
   {
+    isAll = true;
     Index low; // of the centres of voxels around the centroid
     Index high;
     for (std::size_t k = 0; k < D; ++k)
     {
-      const auto by = static_cast<std::int64_t>(std::min(most, reach * this->VoxelsPerLength[k]));
+      const double voxels = reach * this->VoxelsPerLength[k];
+      isAll = isAll && voxels <= most;
+      const auto by = static_cast<std::int64_t>(std::min(most, voxels));
       low[k] = static_cast<std::int64_t>(std::floor(index[k])) - by;
       high[k] = low[k] + 1 + 2 * by;
     }
