@@ -246,10 +246,10 @@ TEST(LabelContacts, TouchThroughFacesEdgesAndCorners)
                                                                 : 0;
     });
   const LabelContacts<3> contacts(image);
-  const auto touch = [&](const Point<3>& at, LabelId a, LabelId b)
+  const auto touch = [&](const Point<3>& at, LabelId a, LabelId b, double edge = 0.5)
   {
-    const Point<3> p = { at[0] + 0.5, at[1], at[2] };
-    const Point<3> q = { at[0], at[1] + 0.5, at[2] };
+    const Point<3> p = { at[0] + edge, at[1], at[2] };
+    const Point<3> q = { at[0], at[1] + edge, at[2] };
     return contacts.TouchNear({ &at, &p, &q }, a, b);
   };
   EXPECT_TRUE(touch({ 9.5, 9.5, 9.5 }, 1, 2));
@@ -257,6 +257,8 @@ TEST(LabelContacts, TouchThroughFacesEdgesAndCorners)
   EXPECT_FALSE(touch({ 11.0, 5.0, 5.0 }, 1, 3));
   EXPECT_TRUE(touch({ 11.0, 5.0, 5.0 }, 0, 3));
   EXPECT_FALSE(touch({ 2.0, 2.0, 2.0 }, 1, 2)); // far from the corner
+  EXPECT_FALSE(touch({ 2.0, 2.0, 2.0 }, 1, 2, 12.0));
+  EXPECT_TRUE(touch({ 2.0, 2.0, 2.0 }, 1, 2, 20.0));
   EXPECT_TRUE(
     contacts.AreConnected({ 5.0, 5.0, 5.0 }, { 8.0, 5.0, 5.0 }, 2)); // unknown: it is far away
 }
