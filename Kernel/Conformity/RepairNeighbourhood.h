@@ -161,7 +161,7 @@ public:
   /** @param t a simplex at the ridge; the time is linear in the number of those */
   Ring RingOf(const Ridge<D>& ridge, SimplexId t) const
   {
-    RidgeRing found;
+    RidgeRing& found = this->Found;
     const std::array<VertexId, 2> others = this->OthersOf(t, ridge);
     GatherRing(
       t, others[0],
@@ -289,6 +289,7 @@ private:
   const Triangulation<D>& Source;
   const std::span<const LabelId> Labels;
   mutable std::unordered_map<VertexId, Star> Stars; ///< cache of the requested ones
+  mutable RidgeRing Found; ///< keeps its memory
   mutable std::vector<VertexId> SeenVertices;
   mutable std::size_t Search = 1;
 };
