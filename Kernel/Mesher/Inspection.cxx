@@ -144,6 +144,10 @@ bool Inspection<D>::Inspect()
   }
   bool isNeeded = false;
   const LabelledTriangulation<D> elements(this->Source, this->Source.Labels());
+  this->Look(isNeeded, BadRidges, times.Interfaces,
+    [&] { return this->Interfaces.InspectRidges(this->Made); });
+  this->Look(isNeeded, HiddenLayers, times.Interfaces,
+    [&] { return this->Interfaces.InspectLayers(this->Made, this->Run.Options.Components.Exact); });
   if (this->Components)
   {
     this->Look(isNeeded, LostComponents, times.Components,
@@ -154,10 +158,6 @@ bool Inspection<D>::Inspect()
     this->Look(
       isNeeded, LostInFrames, times.Components, [&] { return this->OfFrames->Inspect(elements); });
   }
-  this->Look(isNeeded, BadRidges, times.Interfaces,
-    [&] { return this->Interfaces.InspectRidges(this->Made); });
-  this->Look(isNeeded, HiddenLayers, times.Interfaces,
-    [&] { return this->Interfaces.InspectLayers(this->Made, this->Run.Options.Components.Exact); });
   isNeeded = isNeeded || this->InspectGaps();
   if (!isNeeded)
   {

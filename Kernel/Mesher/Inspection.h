@@ -28,9 +28,9 @@ namespace voxplex
  * order:
  * 1. faces of voxels that are far from the interfaces of the mesh (InterfaceCheck), of those that were
  *    sampled; the first time, of all. If there are any, inspection ends here;
- * 2. components, in 4D also those of frames, that have no simplex (ComponentCheck);
- * 3. edges that are not manifold (InterfaceCheck; 3D);
- * 4. layers of the image that the mesh hides (HiddenLayers);
+ * 2. edges that are not manifold (InterfaceCheck; 3D);
+ * 3. layers of the image that the mesh hides (HiddenLayers);
+ * 4. components, in 4D also those of frames, that have no simplex (ComponentCheck);
  * 5. components whose simplices do not hold together (JoinPieces);
  * 6. if nothing was found, far faces among all.
  *
@@ -64,10 +64,10 @@ private:
   /** The finders of steps 2 to 5. */
   enum Finder : std::size_t
   {
-    LostComponents,
-    LostInFrames,
     BadRidges,
     HiddenLayers,
+    LostComponents,
+    LostInFrames,
     NumberOfFinders
   };
 
