@@ -205,7 +205,7 @@ vtkSmartPointer<vtkSegmentationReader> ReadFile(
   SetPlace(reader, options);
   reader->SetDataFilesAnywhere(options.DataFilesAnywhere);
   reader->SetSpace(options.Space == Space::LPS ? vtkSegmentationReader::SPACE_LPS
-                                                   : vtkSegmentationReader::SPACE_RAS);
+                                               : vtkSegmentationReader::SPACE_RAS);
   Warn(ReadImage(reader, words));
   return reader;
 }

@@ -13,7 +13,7 @@
 namespace voxplex
 {
 
-Space GetSpace(vtkFieldData* fields, std::string* unknown)
+Space GetSpace(vtkFieldData* fields, std::optional<std::string>* unknown)
 {
   const std::vector<std::string> texts = TextsOf(fields, "SPACE");
   const std::string text = texts.size() == 1 ? texts.front() : "LPS";

@@ -8,6 +8,7 @@
 #define voxplex_Space_h
 
 #include <array>
+#include <optional>
 #include <string>
 
 class vtkFieldData;
@@ -38,7 +39,7 @@ inline std::array<double, 3> SignsFromLPS(Space space)
  * As the array SPACE says, a text that vtkSegmentationReader and 3D Slicer write; LPS if there is none.
  * @param unknown receives another text, which is taken for LPS; may be null
  */
-Space GetSpace(vtkFieldData* fields, std::string* unknown = nullptr);
+Space GetSpace(vtkFieldData* fields, std::optional<std::string>* unknown = nullptr);
 
 /** Adds the array SPACE. */
 void SetSpace(vtkFieldData* fields, Space space);

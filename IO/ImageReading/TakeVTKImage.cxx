@@ -120,12 +120,12 @@ ScalarType ScalarTypeOf(vtkDataArray* array)
 
 Space SpaceOf(vtkImageData* image, Reading& reading)
 {
-  std::string unknown;
+  std::optional<std::string> unknown;
   const Space space = GetSpace(image->GetFieldData(), &unknown);
-  if (!unknown.empty())
+  if (unknown)
   {
     reading.Warnings.push_back(
-      "it does not say where left, posterior and superior are (SPACE is '" + Excerpt(unknown) +
+      "it does not say where left, posterior and superior are (SPACE is '" + Excerpt(*unknown) +
       "'); its coordinates are taken for LPS");
   }
   return space;
