@@ -127,23 +127,14 @@ void Take(
   }
 }
 
-std::string ParseName(const std::string& option, const std::string& text)
-{
-  if (text.empty())
-  {
-    throw UsageError("--" + option + ": the name is empty");
-  }
-  return text;
-}
-
 std::vector<std::string> AllGiven(const po::variables_map& values, const char* name)
 {
   return values.count(name) ? values[name].as<std::vector<std::string>>()
                             : std::vector<std::string>();
 }
 
-/** Numbers, words and flags of the table. */
-void TakeValues(const po::variables_map& given, ParameterValues& values)
+/** What is given of the table. */
+void TakeParameters(const po::variables_map& given, Parameters& p)
 {
   for (const MeshingParameter& parameter : MeshingParameters())
   {
@@ -152,75 +143,27 @@ void TakeValues(const po::variables_map& given, ParameterValues& values)
     {
       continue;
     }
-    if (parameter.Kind == ParameterKind::Flag)
+    if (parameter.IsOfLabels())
     {
-      values[parameter.Name] = parameter.IsOnByDefault() ? 0.0 : 1.0;
+      for (const std::string& text : AllGiven(given, option.c_str()))
+      {
+        p.OfLabels[parameter.Name].push_back(ParseLabels(option, text, parameter));
+      }
     }
-    else if (parameter.IsNumber() || parameter.Kind == ParameterKind::Word)
+    else if (parameter.Kind == ParameterKind::Flag)
     {
-      values[parameter.Name] =
-        ParseParameter(option, given[option].as<std::string>(), parameter, parameter.Range);
+      p.Values[parameter.Name] = parameter.IsOnByDefault() ? 0.0 : 1.0;
+    }
+    else
+    {
+      p.Values[parameter.Name] = ParseParameter(option, given[option].as<std::string>(), parameter);
     }
   }
   for (const MeshingParameter& parameter : MeshingParameters())
   {
-    if (!parameter.StandsFor.empty() && values.count(parameter.Name) && values.count("isovalue"))
+    if (!parameter.StandsFor.empty() && p.Has(parameter.Name) && p.Has("isovalue"))
     {
-      values[parameter.StandsFor] = values[parameter.Name];
-    }
-  }
-}
-
-/** What is said of the file of the image. */
-void TakeReading(const po::variables_map& values, ReadingOptions& reading)
-{
-  Take(values, "series", ParseName, reading.Series);
-  Take(
-    values, "overlap",
-    [](const std::string& option, const std::string& text) {
-      return ParseWord(option, text, { "smallest", "order" });
-    },
-    reading.Overlap);
-  Take(
-    values, "mask-threshold",
-    [](const std::string& option, const std::string& text)
-    { return ParseReal(option, text, { .Low = 0.0, .High = 1.0 }); },
-    reading.MaskThreshold);
-  reading.ResampleMasks = values.count("resample-masks") > 0;
-  Take(values, "label-table", ParseName, reading.LabelTable);
-  Take(values, "frame-times", ParseFrameTimes, reading.FrameTimes);
-  Take(values, "spacing", ParseSpacing, reading.Spacing);
-  Take(values, "origin", ParseOrigin, reading.Origin);
-  Take(values, "direction", ParseDirection, reading.Direction);
-  Take(values, "space", ParseSpace, reading.Space);
-  reading.DataFilesAnywhere = values.count("data-files-anywhere") > 0;
-}
-
-/** Labels, and sizes of labels and interfaces. */
-void TakeLists(const po::variables_map& values, Parameters& p)
-{
-  for (const std::string& text : AllGiven(values, "interface-size"))
-  {
-    p.InterfaceSizeTexts.push_back(ParseInterfaceSize("interface-size", text));
-  }
-  for (const std::string& text : AllGiven(values, "label-size"))
-  {
-    p.LabelSizeTexts.push_back(ParseLabelSize("label-size", text));
-  }
-  for (const std::string& text : AllGiven(values, "min-thickness"))
-  {
-    p.ThicknessTexts.push_back(ParseLabelSize("min-thickness", text));
-  }
-  for (const std::string& text : AllGiven(values, "shell"))
-  {
-    p.ShellTexts.push_back(ParseLabelSize("shell", text, true));
-  }
-  p.LabelTexts = AllGiven(values, "labels");
-  for (const std::string& text : p.LabelTexts)
-  {
-    for (const std::string& label : SplitAtCommas(text))
-    {
-      ParseLabelNumber("labels", label);
+      p.Values[parameter.StandsFor] = p.Values[parameter.Name];
     }
   }
 }
@@ -295,10 +238,7 @@ Parameters ToParameters(Verb verb, const po::variables_map& values)
   {
     CheckOptionsOfImage(values);
   }
-  Take(values, "size-image", ParseName, p.SizeImage);
-  TakeReading(values, p.Reading);
-  TakeValues(values, p.Values);
-  TakeLists(values, p);
+  TakeParameters(values, p);
   const auto prefix = [](const char* example)
   {
     return [example](const std::string& option, const std::string& text)

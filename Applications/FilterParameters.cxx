@@ -11,6 +11,9 @@
 #include <vtkSegmentationReader.h>
 #include <vtkSegmentationRepair.h>
 
+#include <concepts>
+#include <type_traits>
+
 namespace voxplex::cli
 {
 namespace
@@ -20,13 +23,69 @@ using Filter = vtkImageToSimplexMeshFilter;
 using Tets = vtkImageToTetMeshFilter;
 using Pentatopes = vtkImageToPentatopeMeshFilter;
 using Repair = vtkSegmentationRepair;
-using Setter = std::function<void(vtkAlgorithm*, double)>;
+using Reader = vtkSegmentationReader;
+using Setter = std::function<void(vtkAlgorithm*, const ParameterValue&)>;
 
+/** One value, or one after the other: times, and labels. */
 template <class F, class T>
 Setter To(void (F::*set)(T))
 {
-  return [set](vtkAlgorithm* filter, double value)
-  { (static_cast<F*>(filter)->*set)(static_cast<T>(value)); };
+  return [set](vtkAlgorithm* algorithm, const ParameterValue& value)
+  {
+    auto* const object = static_cast<F*>(algorithm);
+    if constexpr (std::is_same_v<T, const char*>)
+    {
+      (object->*set)(std::get<std::string>(value).c_str());
+    }
+    else if constexpr (std::is_same_v<T, const double*>)
+    {
+      (object->*set)(std::get<std::vector<double>>(value).data());
+    }
+    else if (const double* const number = std::get_if<double>(&value))
+    {
+      (object->*set)(static_cast<T>(*number));
+    }
+    else if (const auto* const labels = std::get_if<LabelValues>(&value))
+    {
+      for (const auto& [label, size] : *labels)
+      {
+        (object->*set)(static_cast<T>(label.first));
+      }
+    }
+    else
+    {
+      for (const double one : std::get<std::vector<double>>(value))
+      {
+        (object->*set)(static_cast<T>(one));
+      }
+    }
+  };
+}
+
+/** Sizes of labels. */
+template <class F, std::integral Label>
+Setter To(void (F::*set)(Label, double))
+{
+  return [set](vtkAlgorithm* algorithm, const ParameterValue& value)
+  {
+    for (const auto& [label, size] : std::get<LabelValues>(value))
+    {
+      (static_cast<F*>(algorithm)->*set)(label.first, size);
+    }
+  };
+}
+
+/** Sizes of interfaces. */
+template <class F, std::integral Label>
+Setter To(void (F::*set)(Label, Label, double))
+{
+  return [set](vtkAlgorithm* algorithm, const ParameterValue& value)
+  {
+    for (const auto& [labels, size] : std::get<LabelValues>(value))
+    {
+      (static_cast<F*>(algorithm)->*set)(labels.first, labels.second, size);
+    }
+  };
 }
 
 const std::map<std::string, Setter, std::less<>>& Setters()
@@ -35,6 +94,25 @@ const std::map<std::string, Setter, std::less<>>& Setters()
 #include "Setters.inc" // from the table
   };
   return setters;
+}
+
+/** Those for which the predicate holds. Whoever has an image of sizes sets it. */
+template <typename TPredicate>
+void Set(vtkAlgorithm* algorithm, const ParameterValues& values, TPredicate&& isOfAlgorithm)
+{
+  for (const auto& [name, value] : values)
+  {
+    const MeshingParameter& parameter = FindParameter(name);
+    if (parameter.Kind != ParameterKind::Image && isOfAlgorithm(parameter))
+    {
+      Setters().at(name)(algorithm, value);
+    }
+  }
+}
+
+bool IsOfReader(const MeshingParameter& parameter)
+{
+  return parameter.IsOfReading() || parameter.Kind == ParameterKind::Times;
 }
 
 void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
@@ -51,59 +129,37 @@ void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
 
 void SetParameters(vtkImageToSimplexMeshFilter* filter, const ParameterValues& values)
 {
-  for (const auto& [name, value] : values)
-  {
-    if (!FindParameter(name).IsOfRepair())
-    {
-      Setters().at(name)(filter, value);
-    }
-  }
+  Set(filter, values,
+    [](const MeshingParameter& parameter)
+    { return !IsOfReader(parameter) && !parameter.IsOfRepair(); });
 }
 
 vtkSmartPointer<vtkSegmentationRepair> MakeRepair(
-  const ParameterValues& values, const LabelSelection& selection, UserInterface words)
+  const ParameterValues& values, const ParameterValues& ofLabels, UserInterface words)
 {
-  bool isAsked = !selection.Thicknesses.empty() || !selection.Shells.empty();
-  auto repair = vtkSmartPointer<Repair>::New();
+  bool isAsked = !ofLabels.empty();
   for (const auto& [name, value] : values)
   {
-    if (FindParameter(name).IsOfRepair())
-    {
-      Setters().at(name)(repair, value);
-      isAsked = isAsked || value != 0.0;
-    }
+    isAsked = isAsked || (FindParameter(name).IsOfRepair() && std::get<double>(value) != 0.0);
   }
-  for (const auto& [label, length] : selection.Thicknesses)
+  if (!isAsked)
   {
-    repair->SetMinimumThickness(label, length);
+    return nullptr;
   }
-  for (const auto& [label, thickness] : selection.Shells)
+  auto repair = vtkSmartPointer<Repair>::New();
+  for (const ParameterValues* const some : { &values, &ofLabels })
   {
-    repair->SetShell(label, thickness);
+    Set(repair, *some, [](const MeshingParameter& parameter) { return parameter.IsOfRepair(); });
   }
-  repair->SetNumberOfThreads(static_cast<int>(values.at("threads")));
+  repair->SetNumberOfThreads(static_cast<int>(std::get<double>(values.at("threads"))));
   repair->SetVocabulary(static_cast<int>(words)); // the filter has the same numbers
-  return isAsked ? repair : nullptr;
+  return repair;
 }
 
-void SetLabels(vtkImageToSimplexMeshFilter* filter, const LabelSelection& selection)
+std::vector<std::string> ReadImage(
+  vtkSegmentationReader* reader, const ParameterValues& values, UserInterface interface)
 {
-  for (const auto& [labels, size] : selection.InterfaceSizes)
-  {
-    filter->SetInterfaceSize(labels.first, labels.second, size);
-  }
-  for (const auto& [label, size] : selection.Sizes)
-  {
-    filter->SetLabelSize(label, size);
-  }
-  for (const std::int64_t label : selection.Labels)
-  {
-    filter->AddLabel(label);
-  }
-}
-
-std::vector<std::string> ReadImage(vtkSegmentationReader* reader, UserInterface interface)
-{
+  Set(reader, values, IsOfReader);
   reader->Update();
   if (!reader->GetErrorMessage().empty())
   {

@@ -4,7 +4,6 @@
 #ifndef voxplex_cli_FilterParameters_h
 #define voxplex_cli_FilterParameters_h
 
-#include "LabelSelection.h"
 #include "MeshingParameters.h"
 
 #include <vtkSmartPointer.h>
@@ -21,25 +20,26 @@ class vtkSegmentationRepair;
 namespace voxplex::cli
 {
 
-/** What the values and the selection say of the image before it is meshed; null if they say nothing. */
+/**
+ * What the values say of the image before it is meshed; null if they say nothing.
+ * @param ofLabels those of SelectRepairs()
+ */
 vtkSmartPointer<vtkSegmentationRepair> MakeRepair(
-  const ParameterValues& values, const LabelSelection& selection, UserInterface words);
+  const ParameterValues& values, const ParameterValues& ofLabels, UserInterface words);
 
-/** Sets what the values say, which are for images of the filter's dimension. */
+/** Sets what the values say of meshing, which are for images of the filter's dimension. */
 void SetParameters(vtkImageToSimplexMeshFilter* filter, const ParameterValues& values);
-
-/** Sets the labels, and the sizes of labels and interfaces. */
-void SetLabels(vtkImageToSimplexMeshFilter* filter, const LabelSelection& selection);
 
 /** Called now and then with the fraction done and the name of the step; returning false cancels. */
 using ProgressFunction = std::function<bool(double fraction, const std::string& step)>;
 
 /**
- * Has a reader read its file.
+ * Has a reader read its file, as the values say.
  * @return warnings in the terms of the interface
  * @throws RunError
  */
-std::vector<std::string> ReadImage(vtkSegmentationReader* reader, UserInterface interface);
+std::vector<std::string> ReadImage(
+  vtkSegmentationReader* reader, const ParameterValues& values, UserInterface interface);
 
 /** How what a filter has made differs from what was asked for. */
 template <typename Filter>

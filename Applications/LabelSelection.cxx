@@ -135,122 +135,125 @@ void AddLabels(const std::string& text, const LabelTable& table, std::vector<std
   }
 }
 
-std::map<std::int64_t, double> ToSizes(
-  const std::string& option, const std::vector<LabelSizeText>& texts, const LabelTable& table)
-{
-  std::map<std::int64_t, double> sizes;
-  for (const LabelSizeText& size : texts)
-  {
-    const std::int64_t label = ToLabel(option, size.Label, table);
-    if (!sizes.emplace(label, size.Size).second)
-    {
-      throw UsageError("--" + option + ": label " + std::to_string(label) + " is given twice");
-    }
-  }
-  return sizes;
-}
-
-/** The one or two labels of --interface-size: a name that has commas, or what commas separate. */
-std::vector<std::string> LabelsOfInterface(const std::string& text, const LabelTable& table)
+/** The one or two labels of an interface: a name that has commas, or what commas separate. */
+std::vector<std::string> LabelsOfInterface(
+  const std::string& option, const std::string& text, const LabelTable& table)
 {
   std::vector<std::string> labels =
     LabelsCalled(text, table).size() == 1 ? std::vector{ text } : SplitAtCommas(text);
   if (labels.size() > 2)
   {
-    throw UsageError("--interface-size: " + Quoted(text) +
+    throw UsageError("--" + option + ": " + Quoted(text) +
       " is more than two labels; an interface lies between two, as in 3,7=0.5, and 3=0.5 "
       "means all of label 3");
   }
   return labels;
 }
 
-void TakeInterfaceSizes(const Parameters& p, const LabelTable& table, LabelSelection& selection)
+/** @param chosen what is meshed; empty: all */
+LabelValues ToSizes(const std::string& option, const std::vector<LabelText>& texts,
+  bool isOfInterfaces, const LabelTable& table, const LabelValues& chosen)
 {
-  for (const InterfaceSizeText& size : p.InterfaceSizeTexts)
+  LabelValues sizes;
+  for (const LabelText& size : texts)
   {
-    std::pair<std::int64_t, std::int64_t> labels{ LabelSelection::AnyLabel,
-      LabelSelection::AnyLabel };
-    for (const std::string& text : LabelsOfInterface(size.Labels, table))
+    std::pair<std::int64_t, std::int64_t> labels{ AnyLabel, AnyLabel };
+    for (const std::string& text :
+      isOfInterfaces ? LabelsOfInterface(option, size.Labels, table) : std::vector{ size.Labels })
     {
-      const std::int64_t label = text == "0" ? 0 : ToLabel("interface-size", text, table);
+      const std::int64_t label = isOfInterfaces && text == "0" ? 0 : ToLabel(option, text, table);
       if (label == labels.first)
       {
-        throw UsageError("--interface-size: label " + text + " has no interface with itself");
+        throw UsageError("--" + option + ": label " + text + " has no interface with itself");
       }
-      if (label != 0 && !selection.Labels.empty() &&
-        !std::binary_search(selection.Labels.begin(), selection.Labels.end(), label))
+      if (label != 0 && !chosen.empty() && !chosen.contains({ label, AnyLabel }))
       {
-        throw UsageError("--interface-size: label " + text + " is not among those of --labels");
+        throw UsageError(
+          "--" + option + ": label " + std::to_string(label) + " is not among those of --labels");
       }
       labels = { std::max(labels.first, label), std::min(labels.first, label) };
     }
-    if (!selection.InterfaceSizes.emplace(labels, size.Size).second)
+    if (!sizes.emplace(labels, size.Size).second)
     {
-      throw UsageError("--interface-size: " + Quoted(size.Labels) + " is given twice");
+      throw UsageError("--" + option + ": " +
+        (isOfInterfaces ? Quoted(size.Labels) : "label " + std::to_string(labels.first)) +
+        " is given twice");
     }
   }
+  return sizes;
 }
 
-} // namespace
-
-bool HasNames(const Parameters& p)
+LabelValues ToLabels(const std::vector<LabelText>& texts, const LabelTable& table)
 {
-  const auto isName = [](const std::string& text)
-  { return !ParseLabelNumber("labels", text).has_value(); };
-  const auto hasName = [&isName](const std::string& text)
+  std::vector<std::int64_t> labels;
+  for (const LabelText& given : texts)
   {
-    const std::vector<std::string> labels = SplitAtCommas(text);
-    return std::any_of(labels.begin(), labels.end(), isName);
-  };
-  const auto hasNamed = [&isName](const std::vector<LabelSizeText>& sizes)
-  {
-    return std::any_of(sizes.begin(), sizes.end(),
-      [&isName](const LabelSizeText& size) { return isName(size.Label); });
-  };
-  return std::any_of(p.LabelTexts.begin(), p.LabelTexts.end(), hasName) ||
-    hasNamed(p.LabelSizeTexts) || hasNamed(p.ThicknessTexts) || hasNamed(p.ShellTexts) ||
-    std::any_of(p.InterfaceSizeTexts.begin(), p.InterfaceSizeTexts.end(),
-      [](const InterfaceSizeText& size)
-      {
-        const std::vector<std::string> labels = SplitAtCommas(size.Labels);
-        return std::any_of(labels.begin(), labels.end(),
-          [](const std::string& text)
-          { return text != "0" && !ParseLabelNumber("interface-size", text).has_value(); });
-      });
-}
-
-LabelSelection SelectLabels(const Parameters& p, const LabelTable& table)
-{
-  LabelSelection selection;
-  std::vector<std::int64_t>& labels = selection.Labels;
-  for (const std::string& text : p.LabelTexts)
-  {
+    const std::string& text = given.Labels;
     const bool isOneName = LabelsCalled(text, table).size() == 1;
     for (const std::string& label : isOneName ? std::vector{ text } : SplitAtCommas(text))
     {
       AddLabels(label, table, labels);
     }
   }
-  std::sort(labels.begin(), labels.end());
-  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-
-  selection.Sizes = ToSizes("label-size", p.LabelSizeTexts, table);
-  for (const auto& [label, size] : selection.Sizes)
+  LabelValues values;
+  for (const std::int64_t label : labels)
   {
-    if (!labels.empty() && !std::binary_search(labels.begin(), labels.end(), label))
+    values.emplace(std::pair(label, AnyLabel), 0.0);
+  }
+  return values;
+}
+
+/** Of repair, or of meshing. */
+ParameterValues Select(const Parameters& p, const LabelTable& table, bool isOfRepair)
+{
+  ParameterValues selection;
+  const auto chosen = p.OfLabels.find("labels");
+  const LabelValues labels =
+    chosen == p.OfLabels.end() || isOfRepair ? LabelValues() : ToLabels(chosen->second, table);
+  for (const auto& [name, texts] : p.OfLabels)
+  {
+    const MeshingParameter& parameter = FindParameter(name);
+    if (parameter.IsOfRepair() == isOfRepair)
     {
-      throw UsageError(
-        "--label-size: label " + std::to_string(label) + " is not among those of --labels");
+      selection[name] = parameter.Kind == ParameterKind::Labels
+        ? labels
+        : ToSizes(NameIn(UserInterface::CommandLine, parameter), texts,
+            parameter.Kind == ParameterKind::InterfaceSizes, table, labels);
     }
   }
-  TakeInterfaceSizes(p, table, selection);
   return selection;
 }
 
-void SelectRepairs(const Parameters& p, const LabelTable& table, LabelSelection& selection)
+} // namespace
+
+bool HasNames(const Parameters& p)
 {
-  selection.Thicknesses = ToSizes("min-thickness", p.ThicknessTexts, table);
-  selection.Shells = ToSizes("shell", p.ShellTexts, table);
+  for (const auto& [name, texts] : p.OfLabels)
+  {
+    for (const LabelText& given : texts)
+    {
+      const std::vector<std::string> labels = FindParameter(name).Kind == ParameterKind::LabelSizes
+        ? std::vector{ given.Labels }
+        : SplitAtCommas(given.Labels);
+      if (std::any_of(labels.begin(), labels.end(),
+            [&name](const std::string& text)
+            { return text != "0" && !ParseLabelNumber(name, text).has_value(); }))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+ParameterValues SelectLabels(const Parameters& p, const LabelTable& table)
+{
+  return Select(p, table, false);
+}
+
+ParameterValues SelectRepairs(const Parameters& p, const LabelTable& table)
+{
+  return Select(p, table, true);
 }
 
 } // namespace voxplex::cli

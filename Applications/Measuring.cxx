@@ -51,12 +51,15 @@ std::string Distances(const char* name, const ordered_json& figures)
 
 /** What measures a mesh as `parameters` ask for. It has no input yet. */
 vtkSmartPointer<vtkSimplexMeshQuality> MakeFilter(
-  const Parameters& parameters, const LabelSelection& selection)
+  const Parameters& parameters, const ParameterValues& selection)
 {
   auto filter = vtkSmartPointer<vtkSimplexMeshQuality>::New();
-  for (const std::int64_t label : selection.Labels)
+  if (const auto labels = selection.find("labels"); labels != selection.end())
   {
-    filter->AddLabel(label);
+    for (const auto& [label, none] : std::get<LabelValues>(labels->second))
+    {
+      filter->AddLabel(label.first);
+    }
   }
   filter->SetDistances(parameters.Hausdorff);
   if (const auto sigma = parameters.Value("smoothing"))
@@ -88,7 +91,7 @@ void Connect(vtkSimplexMeshQuality* filter, const Parameters& parameters, const 
     filter->SetImageConnection(input.Source()->GetOutputPort());
     return;
   }
-  for (const double time : input.Labels ? input.TimesOfFrames() : parameters.Reading.FrameTimes)
+  for (const double time : input.Labels ? input.TimesOfFrames() : parameters.Numbers("frame-times"))
   {
     filter->AddFrameTime(time);
   }

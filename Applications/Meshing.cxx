@@ -18,9 +18,10 @@ namespace
 
 using Filter = vtkImageToSimplexMeshFilter;
 
-void Configure(Filter* filter, const Parameters& p, const LabelSelection& selection)
+void Configure(Filter* filter, const Parameters& p, const ParameterValues& ofLabels)
 {
   SetParameters(filter, p.Values);
+  SetParameters(filter, ofLabels);
   if (p.Has("isovalue"))
   {
     filter->SetInputModeToIsosurface();
@@ -33,7 +34,6 @@ void Configure(Filter* filter, const Parameters& p, const LabelSelection& select
       pentatopes->AddTimePlane(time);
     }
   }
-  SetLabels(filter, selection);
   filter->ComputeQualityOn();
   filter->SetVocabulary(static_cast<int>(p.Words)); // the filter has the same numbers
 }

@@ -30,7 +30,7 @@ struct MeshingInput
   vtkSmartPointer<vtkSegmentationRepair>
     Repair; ///< of Labels; null if nothing is repaired or checked
   vtkSmartPointer<vtkSegmentationReader> Sizes; ///< null if there is no image of sizes
-  LabelSelection Selection;
+  ParameterValues Selection;                    ///< what has labels, see SelectLabels()
 
   int Dimension() const; ///< 4 if there are several frames, else 3
   std::vector<double> TimesOfFrames() const;

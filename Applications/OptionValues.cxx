@@ -6,10 +6,7 @@
 #include "Errors.h"
 #include "Text.h"
 
-#include <vtkMath.h>
-
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 
@@ -17,8 +14,6 @@ namespace voxplex::cli
 {
 namespace
 {
-
-constexpr ParameterRange Lengths{ .Low = 0.0, .LowIsOutside = true };
 
 double ParseFinite(const std::string& option, std::string_view text)
 {
@@ -34,14 +29,44 @@ double ParseFinite(const std::string& option, std::string_view text)
   return *value;
 }
 
-std::vector<double> ParseSoMany(
-  const std::string& option, std::string_view text, std::size_t count, const std::string& example)
+/** "8G": bytes, with K, M, G and T for powers of 1024. */
+double ParseBytes(const std::string& option, const std::string& text)
+{
+  constexpr std::string_view units = "KMGT";
+  std::string_view digits = text;
+  double scale = 1.0;
+  if (!digits.empty())
+  {
+    const auto unit = units.find(static_cast<char>(std::toupper(digits.back())));
+    if (unit != std::string_view::npos)
+    {
+      scale = std::pow(1024.0, static_cast<double>(unit) + 1.0);
+      digits.remove_suffix(1);
+    }
+  }
+  const std::optional<double> value = io::ToNumber<double>(digits);
+  if (!value || !(*value * scale >= 1.0) || *value * scale > 1e18)
+  {
+    throw UsageError(
+      "--" + option + ": " + Quoted(text) + " is not an amount of memory such as 8G or 500M");
+  }
+  return std::floor(*value * scale);
+}
+
+/** As many as the example has. */
+std::vector<double> ParseVector(
+  const std::string& option, const std::string& text, const MeshingParameter& parameter)
 {
   std::vector<double> numbers = ParseNumbers(option, text);
+  const std::size_t count = SplitAtCommas(parameter.Example).size();
   if (numbers.size() != count)
   {
     throw UsageError("--" + option + ": give " + std::to_string(count) +
-      " numbers with commas between them, such as " + example + ", not " + Quoted(text));
+      " numbers with commas between them, such as " + parameter.Example + ", not " + Quoted(text));
+  }
+  for (const std::string& one : SplitAtCommas(text))
+  {
+    ParseReal(option, one, parameter.Range);
   }
   return numbers;
 }
@@ -78,6 +103,15 @@ std::string Quoted(std::string_view text)
   std::string quoted("'");
   quoted.append(text).push_back('\'');
   return quoted;
+}
+
+std::string ParseName(const std::string& option, const std::string& text)
+{
+  if (text.empty())
+  {
+    throw UsageError("--" + option + ": the name is empty");
+  }
+  return text;
 }
 
 double ParseReal(const std::string& option, std::string_view text, const ParameterRange& range,
@@ -131,116 +165,33 @@ std::vector<double> ParseNumbers(const std::string& option, std::string_view tex
   return numbers;
 }
 
-LabelSizeText ParseLabelSize(const std::string& option, std::string_view text, bool isSigned)
+LabelText ParseLabels(
+  const std::string& option, std::string_view text, const MeshingParameter& parameter)
 {
+  if (parameter.Kind == ParameterKind::Labels)
+  {
+    for (const std::string& label : SplitAtCommas(text))
+    {
+      ParseLabelNumber(option, label);
+    }
+    return { std::string(text) };
+  }
+  const bool isOfInterfaces = parameter.Kind == ParameterKind::InterfaceSizes;
   const std::size_t equals = text.rfind('=');
-  if (equals == std::string_view::npos)
+  if (equals == std::string_view::npos || (equals == 0 && isOfInterfaces))
   {
     throw UsageError("--" + option + ": " + Quoted(text) +
-      " is not of the form LABEL=SIZE, such as 3=1.5 or Tibia=1.5");
+      (isOfInterfaces
+          ? " is not of the form LABEL=LENGTH or LABEL,LABEL=LENGTH, such as 3=0.5 or 3,7=0.5; "
+            "--delta is the sampling distance of all interfaces"
+          : " is not of the form LABEL=SIZE, such as 3=1.5 or Tibia=1.5"));
   }
-  const std::string_view label = text.substr(0, equals);
-  ParseLabelNumber(option, label);
-  return { std::string(label),
-    ParseReal(option, text.substr(equals + 1), isSigned ? ParameterRange() : Lengths) };
-}
-
-InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view text)
-{
-  const std::size_t equals = text.rfind('=');
-  if (equals == std::string_view::npos || equals == 0)
+  const std::string labels(text.substr(0, equals));
+  if (!isOfInterfaces)
   {
-    throw UsageError("--" + option + ": " + Quoted(text) +
-      " is not of the form LABEL=LENGTH or LABEL,LABEL=LENGTH, such as 3=0.5 or 3,7=0.5; "
-      "--delta is the sampling distance of all interfaces");
+    ParseLabelNumber(option, labels);
   }
-  return { std::string(text.substr(0, equals)),
-    ParseReal(option, text.substr(equals + 1), Lengths) };
-}
-
-std::vector<double> ParseFrameTimes(const std::string& option, std::string_view text)
-{
-  const std::vector<double> times = ParseNumbers(option, text);
-  for (std::size_t k = 1; k < times.size(); ++k)
-  {
-    if (!(times[k] > times[k - 1]))
-    {
-      throw UsageError("--" + option + ": times must increase, but " + NumberText(times[k]) +
-        " follows " + NumberText(times[k - 1]));
-    }
-  }
-  return times;
-}
-
-std::vector<double> ParseSpacing(const std::string& option, std::string_view text)
-{
-  const std::vector<double> spacing = ParseSoMany(option, text, 3, "0.5,0.5,2");
-  for (const std::string& one : SplitAtCommas(text))
-  {
-    ParseReal(option, one, Lengths);
-  }
-  return spacing;
-}
-
-std::vector<double> ParseOrigin(const std::string& option, std::string_view text)
-{
-  return ParseSoMany(option, text, 3, "-10,0,25.5");
-}
-
-std::vector<double> ParseDirection(const std::string& option, std::string_view text)
-{
-  constexpr double smallestDeterminant = 1e-5; // of unit vectors, as for images
-  const std::vector<double> matrix = ParseSoMany(option, text, 9, "1,0,0,0,1,0,0,0,1");
-  std::array<std::array<double, 3>, 3> axes{};
-  std::array<double, 3> lengths{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    axes[axis] = { matrix[axis], matrix[3 + axis], matrix[6 + axis] };
-    lengths[axis] = vtkMath::Normalize(axes[axis].data());
-  }
-  const double determinant =
-    vtkMath::Determinant3x3(axes[0].data(), axes[1].data(), axes[2].data());
-  if (!(std::abs(determinant) >= smallestDeterminant))
-  {
-    throw UsageError("--" + option +
-      ": the columns of the matrix are the directions of the axes, and those of " + Quoted(text) +
-      " are not independent");
-  }
-  constexpr double roundedToThreeDigits = 1e-3;
-  if (std::any_of(lengths.begin(), lengths.end(),
-        [](double length) { return std::abs(length - 1.0) > roundedToThreeDigits; }))
-  {
-    throw UsageError("--" + option +
-      ": the columns of the matrix must have the length 1, and those of " + Quoted(text) +
-      " have " + NumberText(lengths[0]) + ", " + NumberText(lengths[1]) + " and " +
-      NumberText(lengths[2]) +
-      "; of an affine, give these lengths with --spacing, and each column divided by its length "
-      "here");
-  }
-  return matrix;
-}
-
-std::uint64_t ParseBytes(const std::string& option, const std::string& text)
-{
-  constexpr std::string_view units = "KMGT";
-  std::string_view digits = text;
-  double scale = 1.0;
-  if (!digits.empty())
-  {
-    const auto unit = units.find(static_cast<char>(std::toupper(digits.back())));
-    if (unit != std::string_view::npos)
-    {
-      scale = std::pow(1024.0, static_cast<double>(unit) + 1.0);
-      digits.remove_suffix(1);
-    }
-  }
-  const std::optional<double> value = io::ToNumber<double>(digits);
-  if (!value || !(*value * scale >= 1.0) || *value * scale > 1e18)
-  {
-    throw UsageError(
-      "--" + option + ": " + Quoted(text) + " is not an amount of memory such as 8G or 500M");
-  }
-  return static_cast<std::uint64_t>(*value * scale);
+  return { labels, ParseReal(option, text.substr(equals + 1), parameter.Range) };
 }
 
 int ParseWord(
@@ -259,17 +210,27 @@ int ParseWord(
   throw UsageError("--" + option + ": must be " + choice + ", not " + Quoted(text));
 }
 
-double ParseParameter(const std::string& option, const std::string& text,
-  const MeshingParameter& parameter, const ParameterRange& range)
+ParameterValue ParseParameter(
+  const std::string& option, const std::string& text, const MeshingParameter& parameter)
 {
+  const ParameterRange& range = parameter.Range;
   switch (parameter.Kind)
   {
     case ParameterKind::Whole:
-      return ParseWhole(option, text, static_cast<int>(range.Low), static_cast<int>(range.High));
+      return static_cast<double>(
+        ParseWhole(option, text, static_cast<int>(range.Low), static_cast<int>(range.High)));
     case ParameterKind::Bytes:
-      return static_cast<double>(ParseBytes(option, text));
+      return ParseBytes(option, text);
     case ParameterKind::Word:
-      return ParseWord(option, text, parameter.Words);
+      return static_cast<double>(ParseWord(option, text, parameter.Words));
+    case ParameterKind::Text:
+    case ParameterKind::File:
+    case ParameterKind::Image:
+      return ParseName(option, text);
+    case ParameterKind::Numbers:
+      return ParseVector(option, text, parameter);
+    case ParameterKind::Times:
+      return ParseNumbers(option, text);
     default:
       return ParseReal(option, text, range,
         parameter.IsOptional() && !parameter.Zero.empty() ? "; left out: " + parameter.Zero : "");
@@ -285,11 +246,6 @@ int ParseWhole(const std::string& option, const std::string& text, int low, int 
       " to " + std::to_string(high) + ", not " + Quoted(text));
   }
   return *value;
-}
-
-Space ParseSpace(const std::string& option, const std::string& text)
-{
-  return ParseWord(option, text, { "lps", "ras" }) == 0 ? Space::LPS : Space::RAS;
 }
 
 UserInterface ParseWords(const std::string& option, const std::string& text)

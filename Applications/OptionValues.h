@@ -24,6 +24,9 @@ namespace voxplex::cli
 
 std::string Quoted(std::string_view text);
 
+/** A text that is not empty. */
+std::string ParseName(const std::string& option, const std::string& text);
+
 /** A finite number in the range. The hint ends the message about numbers that are too small. */
 double ParseReal(const std::string& option, std::string_view text, const ParameterRange& range,
   const std::string& hint = "");
@@ -40,37 +43,17 @@ std::vector<std::string> SplitAtCommas(std::string_view text);
 /** "0.5,1": finite numbers with commas between them. */
 std::vector<double> ParseNumbers(const std::string& option, std::string_view text);
 
-/** "3=1.5" or "Tibia=1.5"; the last = counts. The length is positive, if it is not a signed one. */
-LabelSizeText ParseLabelSize(
-  const std::string& option, std::string_view text, bool isSigned = false);
-
-/** "3=0.5" or "Tibia,Femur=0.5"; the last = counts. */
-InterfaceSizeText ParseInterfaceSize(const std::string& option, std::string_view text);
-
-/** "0,40,80": two or more finite numbers that increase. */
-std::vector<double> ParseFrameTimes(const std::string& option, std::string_view text);
-
-/** "0.5,0.5,2": three lengths. */
-std::vector<double> ParseSpacing(const std::string& option, std::string_view text);
-
-/** "-10,0,25.5": three coordinates. */
-std::vector<double> ParseOrigin(const std::string& option, std::string_view text);
-
-/** "0,1,0,-1,0,0,0,0,1": a matrix, row by row, whose columns are independent. */
-std::vector<double> ParseDirection(const std::string& option, std::string_view text);
-
-/** "8G": bytes, with K, M, G and T for powers of 1024. */
-std::uint64_t ParseBytes(const std::string& option, const std::string& text);
+/** "Tibia,Femur", "3=1.5", "Tibia,0=1.5"; the last = counts. The size is in the range of the parameter. */
+LabelText ParseLabels(
+  const std::string& option, std::string_view text, const MeshingParameter& parameter);
 
 /** The place of one of several words. The case of letters does not count. */
 int ParseWord(
   const std::string& option, const std::string& text, const std::vector<std::string>& words);
 
-/** A number or a word, as the parameter wants it, within the range. */
-double ParseParameter(const std::string& option, const std::string& text,
-  const MeshingParameter& parameter, const ParameterRange& range);
-
-Space ParseSpace(const std::string& option, const std::string& text);
+/** What the parameter wants, within its range: a number, a word, a text that is not empty, numbers. Not of labels. */
+ParameterValue ParseParameter(
+  const std::string& option, const std::string& text, const MeshingParameter& parameter);
 
 /** Whose words errors and warnings have: "shell", "slicer" or "python". */
 UserInterface ParseWords(const std::string& option, const std::string& text);

@@ -72,29 +72,6 @@ const std::vector<OwnOption>& OwnOptions()
       "MGH, GIPL, MRC, or a folder that holds a DICOM series; 0 is background; or a grey-value "
       "image (--isovalue). Several files, or a folder of them, are masks, which become labels "
       "1, 2, ... with the names of their files" },
-    { "overlap", "smallest|order", OfImages,
-      "which of the masks that have a voxel gets it: the smallest (the default; of equals the "
-      "first), or the first. Also of segments of a .seg.nrrd file, and of DICOM segmentations" },
-    { "mask-threshold", "NUMBER", OfImages,
-      "above which probabilities, from 0 to 1, are inside: of masks, and of DICOM segmentations"
-      " (default 0.5)" },
-    { "resample-masks", "", OfImages,
-      "resample masks whose grids differ by more than whole voxels to the smallest voxels, by "
-      "nearest neighbour" },
-    { "series", "UID", OfImages, "the DICOM series to read, if the folder holds several" },
-    { "spacing", "X,Y,Z", OfImages,
-      "the distances of voxels along the axes of the image, in place of what its file says: for"
-      " formats that do not know them (TIFF)" },
-    { "origin", "X,Y,Z", OfImages,
-      "the place of the first voxel, in place of what the file says, in the coordinates of "
-      "--space" },
-    { "direction", "NUMBERS", OfImages,
-      "the directions of the axes of the image, in place of what the file says, in the "
-      "coordinates of --space: nine numbers, row by row, of a matrix whose columns they are, "
-      "each of length 1, such as 1,0,0,0,1,0,0,0,1" },
-    { "data-files-anywhere", "", OfImages,
-      "lets the header of an image (.nhdr, .mhd, .hdr) name data files that are not in its "
-      "folder or below; only for headers that you trust" },
     { "mesh", "FILE", { Verb::Measure, Verb::Convert },
       "the mesh that is there: a .vtu file of tetrahedra with the cell array Label, or of "
       "pentatopes, which also have the point array Time" },
@@ -122,13 +99,6 @@ const std::vector<OwnOption>& OwnOptions()
     { "hausdorff", "", { Verb::Mesh, Verb::Measure },
       "measure the symmetric Hausdorff distance between the interfaces of the mesh and of the "
       "image, too" },
-    { "label-table", "FILE", OfImages,
-      "text file with the names of the labels, and perhaps colours: that of FreeSurfer, ITK-"
-      "SNAP or 3D Slicer, or lines like '3 Tibia' or '3,Tibia,220,216,20' (default: the names "
-      "that the image has, or those in FILE.nii.txt beside FILE.nii.gz)",
-      ParameterGroup::Labels },
-    { "space", "lps|ras", OfImages, "coordinates of the mesh (default lps, those of DICOM and ITK)",
-      ParameterGroup::Labels },
     { "time-planes", "TIME,...|frames", { Verb::Mesh },
       "times of planes that the mesh conforms to, or frames for the time of each frame: no "
       "element has points before and after a plane",
@@ -163,10 +133,10 @@ VerbSet VerbsOf(const MeshingParameter& parameter)
 {
   static const std::set<std::string_view> measuring{ "labels", "smoothing", "facet-angle",
     "smallest-component", "radius-edge", "time-scale" };
-  return parameter.Name == "frame-times"                    ? All
-    : parameter.Name == "threads" || parameter.IsOfRepair() ? OfImages
-    : measuring.count(parameter.Name)                       ? VerbSet{ Verb::Mesh, Verb::Measure }
-                                                            : VerbSet{ Verb::Mesh };
+  return parameter.Name == "frame-times"                                               ? All
+    : parameter.Name == "threads" || parameter.IsOfReading() || parameter.IsOfRepair() ? OfImages
+    : measuring.count(parameter.Name) ? VerbSet{ Verb::Mesh, Verb::Measure }
+                                      : VerbSet{ Verb::Mesh };
 }
 
 /** Of the option of this name; empty if there is none. */
@@ -185,13 +155,6 @@ VerbSet VerbsOf(const std::string& option)
     }
   }
   return verbs;
-}
-
-/** Whether the option may come again. */
-bool IsRepeatable(ParameterKind kind)
-{
-  return kind == ParameterKind::Labels || kind == ParameterKind::LabelSizes ||
-    kind == ParameterKind::InterfaceSizes;
 }
 
 /** What the help has for the value. */
@@ -235,7 +198,7 @@ po::options_description OptionsOf(Verb verb, std::optional<ParameterGroup> group
     if (parameter.Group == group && VerbsOf(parameter).count(verb) && !name.empty())
     {
       Add(options, name, ValueName(parameter), Describe(UserInterface::CommandLine, parameter),
-        IsRepeatable(parameter.Kind));
+        parameter.IsOfLabels());
     }
   }
   for (const OwnOption& option : OwnOptions())

@@ -7,6 +7,14 @@
 #include "OptionValues.h"
 #include "OutputFormats.h"
 
+#include "Base/NumberText.h"
+
+#include <vtkMath.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
 #include <string>
 
 namespace voxplex::cli
@@ -37,10 +45,49 @@ void CheckForced(const Parameters& p)
   for (const auto& [name, value] : p.Values)
   {
     const MeshingParameter& parameter = FindParameter(name);
-    const std::string beyond = BeyondLimit(parameter, value);
+    const double* const number = std::get_if<double>(&value);
+    const std::string beyond = number ? BeyondLimit(parameter, *number) : "";
     RefuseIf(!beyond.empty() && !p.Has("force"), OptionOf(parameter),
       ": " + beyond + ' ' + parameter.ForceWhy + "; give --force to try all the same");
   }
+}
+
+/** The columns of the matrix are directions. */
+void CheckDirection(const std::vector<double>& matrix)
+{
+  if (matrix.empty())
+  {
+    return;
+  }
+  constexpr double smallestDeterminant = 1e-5; // of unit vectors, as for images
+  std::array<std::array<double, 3>, 3> axes{};
+  std::array<double, 3> lengths{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    axes[axis] = { matrix[axis], matrix[3 + axis], matrix[6 + axis] };
+    lengths[axis] = vtkMath::Normalize(axes[axis].data());
+  }
+  const double determinant =
+    vtkMath::Determinant3x3(axes[0].data(), axes[1].data(), axes[2].data());
+  RefuseIf(!(std::abs(determinant) >= smallestDeterminant), "--direction",
+    ": the columns of the matrix are the directions of the axes, and these are not independent");
+  constexpr double roundedToThreeDigits = 1e-3;
+  RefuseIf(std::any_of(lengths.begin(), lengths.end(),
+             [](double length) { return std::abs(length - 1.0) > roundedToThreeDigits; }),
+    "--direction",
+    ": the columns of the matrix must have the length 1, and these have " + NumberText(lengths[0]) +
+      ", " + NumberText(lengths[1]) + " and " + NumberText(lengths[2]) +
+      "; of an affine, give these lengths with --spacing, and each column divided by its length "
+      "here");
+}
+
+void CheckFrameTimes(const std::vector<double>& times)
+{
+  const auto later = std::is_sorted_until(times.begin(), times.end(), std::less_equal<>());
+  RefuseIf(later != times.end(), "--frame-times",
+    later == times.end() ? ""
+                         : ": times must increase, but " + NumberText(*later) + " follows " +
+        NumberText(*(later - 1)));
 }
 
 void CheckSpaceTime(const Parameters& p)
@@ -51,56 +98,22 @@ void CheckSpaceTime(const Parameters& p)
   RefuseIf(!p.Slabs.empty() && !hasPlanes && p.Mesh.empty(),
     "--slabs: there is one slab only; give the times of planes with --time-planes");
   const bool hasFrames = !p.Inputs.empty() || p.Mesh.empty();
-  RefuseIf(hasFrames && p.Reading.FrameTimes.size() == 1,
-    "--frame-times: give the time of each frame, such as 0,40,80");
-  RefuseIf(!hasFrames && !p.Slices.empty() && !p.SliceCount && p.Reading.FrameTimes.empty(),
+  const std::vector<double> times = p.Numbers("frame-times");
+  CheckFrameTimes(times);
+  RefuseIf(
+    hasFrames && times.size() == 1, "--frame-times: give the time of each frame, such as 0,40,80");
+  RefuseIf(!hasFrames && !p.Slices.empty() && !p.SliceCount && times.empty(),
     "--slices: a mesh has no frames; give the number of slices with --slice-count, or their times "
     "with --frame-times");
-  for (const char* name : { "picks", "sliver-bound", "seed" })
-  {
-    RefuseIf(p.Has("picking") && p.Has(name), OptionOf(FindParameter(name)),
-      " is about picking regions, and --no-picking switches them off: leave one of the two out");
-  }
 }
 
 void CheckIsosurface(const Parameters& p)
 {
-  if (p.Has("isovalue"))
-  {
-    constexpr const char* Why = ": grey-value images have no labels; leave it or --isovalue out";
-    RefuseIf(!p.LabelTexts.empty(), "--labels", Why);
-    RefuseIf(p.Has("fill-holes"), "--fill-holes", Why);
-    RefuseIf(p.Has("remove-spikes"), "--remove-spikes", Why);
-    RefuseIf(!p.ThicknessTexts.empty(), "--min-thickness", Why);
-    RefuseIf(!p.ShellTexts.empty(), "--shell", Why);
-    RefuseIf(p.Has("check-image"), "--check-image", Why);
-    RefuseIf(p.Inputs.size() > 1, "--isovalue",
-      ": only for one image of grey values, and several files are masks; leave one of the two out");
-    RefuseIf(!p.Reading.LabelTable.empty(), "--label-table", Why);
-    RefuseIf(p.Hausdorff, "--hausdorff",
-      ": distances are measured from the labels of an image, and a grey-value image has none; "
-      "give --quality in its place, or leave --isovalue out");
-    return;
-  }
-  constexpr const char* Why = ": inside of what? Give the isosurface with --isovalue";
-  RefuseIf(p.Has("inside"), "--inside", Why);
-  RefuseIf(p.Has("inside-label"), "--inside-label", Why);
-}
-
-/** Options without effect unless another is given, or unless it is not. */
-void CheckDependent(const Parameters& p)
-{
-  constexpr const char* Why =
-    ": only for interfaces that are graded; give --grading lfs as well, or leave it out";
-  const bool graded = // not uniform, the first of the words
-    p.Value("grading").value_or(0.0) > 0.0;
-  RefuseIf(!graded && p.Has("feature-ratio"), "--feature-ratio", Why);
-  RefuseIf(!graded && p.Has("largest-feature"), "--largest-feature", Why);
-  RefuseIf(p.Has("optimise") && p.Has("optimise-seconds"), "--optimise-seconds",
-    " limits what --no-optimise switches off: leave one of the two out");
-  RefuseIf(p.Has("delta") && p.Has("elements"),
-    "--delta and --elements do not go together: delta is what is solved for; leave one of the two "
-    "out");
+  RefuseIf(p.Has("isovalue") && p.Inputs.size() > 1, "--isovalue",
+    ": only for one image of grey values, and several files are masks; leave one of the two out");
+  RefuseIf(p.Has("isovalue") && p.Hausdorff, "--hausdorff",
+    ": distances are measured from the labels of an image, and a grey-value image has none; "
+    "give --quality in its place, or leave --isovalue out");
 }
 
 /** Something is read, and something is written or said. */
@@ -124,7 +137,14 @@ void CheckTogether(const Parameters& p)
   CheckForced(p);
   CheckSpaceTime(p);
   CheckIsosurface(p);
-  CheckDependent(p);
+  const std::string clash = ClashOf(
+    [&p](const MeshingParameter& parameter)
+    {
+      const bool isDefault = // the first of the words
+        parameter.Kind == ParameterKind::Word && p.Value(parameter.Name) == 0.0;
+      return p.Has(parameter.Name) && !isDefault;
+    });
+  RefuseIf(!clash.empty(), InTermsOf(UserInterface::CommandLine, clash));
   if (p.Action != Verb::Image)
   {
     RequireFormat(OutputOption::Output, p.Output);
@@ -132,10 +152,11 @@ void CheckTogether(const Parameters& p)
   RequireFormat(OutputOption::Interfaces, p.Interfaces);
   RequireFormat(OutputOption::Statistics, p.Statistics);
   CheckFiles(p);
+  CheckDirection(p.Numbers("direction"));
   if (!HasNames(p))
   {
-    LabelSelection selection = SelectLabels(p, LabelTable());
-    SelectRepairs(p, LabelTable(), selection);
+    SelectLabels(p, LabelTable());
+    SelectRepairs(p, LabelTable());
   }
 }
 
@@ -156,8 +177,7 @@ void CheckDimension(const Parameters& p, int dimension)
   RefuseIf(dimension == 3 && !p.Slices.empty(), "--slices", why);
   RefuseIf(dimension == 3 && !p.Slabs.empty(), "--slabs", why);
   RefuseIf(dimension == 3 && (p.TimePlanesAtFrames || !p.TimePlanes.empty()), "--time-planes", why);
-  RefuseIf(
-    dimension == 3 && p.Inputs.empty() && !p.Reading.FrameTimes.empty(), "--frame-times", why);
+  RefuseIf(dimension == 3 && p.Inputs.empty() && p.Has("frame-times"), "--frame-times", why);
   RequireFormat(OutputOption::Output, p.Output, dimension);
   RequireFormat(OutputOption::Interfaces, p.Interfaces, dimension);
 }

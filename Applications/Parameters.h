@@ -19,35 +19,11 @@
 namespace voxplex::cli
 {
 
-/** A label, by number or name, and the size of its elements. */
-struct LabelSizeText
-{
-  std::string Label;
-  double Size;
-};
-
-/** An interface, by the number or name of one or two labels, and its sampling distance. */
-struct InterfaceSizeText
+/** Labels or an interface, by numbers or names with commas between, and their size, if the parameter has sizes. */
+struct LabelText
 {
   std::string Labels;
-  double Size;
-};
-
-/** How the file of an image is read. What is empty is as the file says. */
-struct ReadingOptions
-{
-  std::string Series;
-  int Overlap = 0; ///< of vtkSegmentationReader
-  double MaskThreshold = 0.5;
-  bool ResampleMasks = false;
-  std::string LabelTable;
-  std::vector<double> FrameTimes;
-  std::vector<double> Spacing; ///< of three axes
-  std::vector<double> Origin;  ///< three coordinates, in Space
-  std::vector<double>
-    Direction; ///< nine numbers, row by row; columns are directions of axes, in Space
-  bool DataFilesAnywhere = false;
-  voxplex::Space Space = voxplex::Space::LPS; ///< of the output
+  double Size = 0.0;
 };
 
 /** What the program does, by its first word. */
@@ -64,26 +40,22 @@ struct Parameters
 {
   Verb Action = Verb::Mesh;
   std::vector<std::string> Inputs;
-  ReadingOptions Reading;     ///< of the input
   std::string Mesh;           ///< that is there already
   std::string MeshInterfaces; ///< those of Mesh
   std::string Output;         ///< a mesh, or an image
   std::string Interfaces;
   std::string Statistics;
-  std::string SizeImage;
   std::string Slices; ///< the beginning of the names of slices
   std::optional<int> SliceCount;
   std::vector<double> TimePlanes; ///< in the image's unit of time
   bool TimePlanesAtFrames = false;
   std::string Slabs; ///< the beginning of the names of slabs
 
-  /** Of the table, apart from lists of labels and sizes. */
+  ///@{
+  /** Of the table, and those whose values have labels: names of labels are known only when the image is read. */
   ParameterValues Values{ { "threads", 0.0 }, { "memory-limit", 0.0 } };
-  std::vector<LabelSizeText> LabelSizeTexts;
-  std::vector<LabelSizeText> ThicknessTexts; ///< smallest ones
-  std::vector<LabelSizeText> ShellTexts;     ///< may be negative
-  std::vector<InterfaceSizeText> InterfaceSizeTexts;
-  std::vector<std::string> LabelTexts; ///< each is one label, or several with commas between them
+  std::map<std::string, std::vector<LabelText>, std::less<>> OfLabels;
+  ///@}
 
   UserInterface Words = UserInterface::CommandLine; ///< of errors and warnings
   bool Progress = false;
@@ -116,13 +88,33 @@ struct Parameters
 
   ///@{
   /** Of the table; the name must be one of it. */
-  bool Has(std::string_view name) const { return this->Value(name).has_value(); }
-  std::optional<double> Value(std::string_view name) const
+  bool Has(std::string_view name) const
   {
-    const auto found = this->Values.find(FindParameter(name).Name);
-    return found == this->Values.end() ? std::nullopt : std::optional(found->second);
+    const std::string& key = FindParameter(name).Name;
+    return this->Values.contains(key) || this->OfLabels.contains(key);
+  }
+  std::optional<double> Value(std::string_view name) const { return this->Get<double>(name); }
+  std::string Text(std::string_view name) const
+  {
+    return this->Get<std::string>(name).value_or("");
+  }
+  std::vector<double> Numbers(std::string_view name) const
+  {
+    return this->Get<std::vector<double>>(name).value_or(std::vector<double>());
+  }
+  voxplex::Space Space() const
+  {
+    return this->Value("space") == 1.0 ? voxplex::Space::RAS : voxplex::Space::LPS;
   }
   ///@}
+
+private:
+  template <typename T>
+  std::optional<T> Get(std::string_view name) const
+  {
+    const auto found = this->Values.find(FindParameter(name).Name);
+    return found == this->Values.end() ? std::nullopt : std::optional(std::get<T>(found->second));
+  }
 };
 
 } // namespace voxplex::cli

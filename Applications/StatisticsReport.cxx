@@ -63,9 +63,31 @@ ordered_json OrNull(const std::vector<double>& numbers)
   return numbers.empty() ? ordered_json(nullptr) : ordered_json(numbers);
 }
 
-ordered_json DescribeValue(const Parameters& p, const MeshingParameter& parameter)
+/** By "3" or "7,3". */
+ordered_json DescribeSizes(const LabelValues& sizes)
 {
-  const std::optional<double> value = p.Value(parameter.Name);
+  ordered_json object = ordered_json::object();
+  for (const auto& [labels, size] : sizes)
+  {
+    object[std::to_string(labels.first) +
+      (labels.second == AnyLabel ? "" : "," + std::to_string(labels.second))] = size;
+  }
+  return object;
+}
+
+ordered_json DescribeValue(
+  const Parameters& p, const MeshingParameter& parameter, const ParameterValues& selection)
+{
+  const bool isScalar = parameter.Kind < ParameterKind::Text;
+  const std::optional<double> value = isScalar ? p.Value(parameter.Name) : std::nullopt;
+  if (parameter.IsOfReading() && isScalar && !value && parameter.Kind != ParameterKind::Flag)
+  {
+    return parameter.Kind == ParameterKind::Word ? ordered_json(parameter.Default)
+                                                 : ordered_json::parse(parameter.Default);
+  }
+  const auto found = selection.find(parameter.Name);
+  const LabelValues labels =
+    found == selection.end() ? LabelValues() : std::get<LabelValues>(found->second);
   switch (parameter.Kind)
   {
     case ParameterKind::Flag:
@@ -75,36 +97,36 @@ ordered_json DescribeValue(const Parameters& p, const MeshingParameter& paramete
                    : ordered_json(nullptr);
     case ParameterKind::Real:
       return OrNull(value);
+    case ParameterKind::Text:
+    case ParameterKind::File:
+    case ParameterKind::Image:
+      return OrNull(p.Text(parameter.Name));
+    case ParameterKind::Numbers:
+    case ParameterKind::Times:
+      return OrNull(p.Numbers(parameter.Name));
+    case ParameterKind::LabelSizes:
+    case ParameterKind::InterfaceSizes:
+      return DescribeSizes(labels);
+    case ParameterKind::Labels:
+    {
+      ordered_json numbers = ordered_json::array();
+      for (const auto& [label, none] : labels)
+      {
+        numbers.push_back(label.first);
+      }
+      return numbers;
+    }
     default:
       return value ? ordered_json(static_cast<std::int64_t>(*value)) : ordered_json(nullptr);
   }
 }
 
-/** Null for what was left to its default. */
-ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selection)
+/** Null for what was left to its default, but for how the image was read. */
+ordered_json DescribeParameters(const Parameters& p, const ParameterValues& selection)
 {
-  const auto byLabel = [](const std::map<std::int64_t, double>& sizes)
-  {
-    ordered_json object = ordered_json::object();
-    for (const auto& [label, size] : sizes)
-    {
-      object[std::to_string(label)] = size;
-    }
-    return object;
-  };
-  ordered_json interfaceSizes = ordered_json::object();
-  for (const auto& [labels, size] : selection.InterfaceSizes)
-  {
-    interfaceSizes[std::to_string(labels.first) +
-      (labels.second == LabelSelection::AnyLabel ? "" : "," + std::to_string(labels.second))] =
-      size;
-  }
   ordered_json parameters = {
     { "input", p.Inputs.size() == 1 ? ordered_json(p.Inputs.front()) : ordered_json(p.Inputs) },
-    { "overlap", p.Reading.Overlap == 0 ? "smallest" : "order" },
-    { "mask_threshold", p.Reading.MaskThreshold }, { "resample_masks", p.Reading.ResampleMasks },
-    { "series", OrNull(p.Reading.Series) }, { "output", OrNull(p.Output) },
-    { "plc", OrNull(p.Interfaces) }
+    { "output", OrNull(p.Output) }, { "plc", OrNull(p.Interfaces) }
   };
   for (const MeshingParameter& parameter : MeshingParameters())
   {
@@ -112,17 +134,11 @@ ordered_json DescribeParameters(const Parameters& p, const LabelSelection& selec
     std::replace(key.begin(), key.end(), '-', '_');
     if (!key.empty())
     {
-      parameters[key] = DescribeValue(p, parameter);
+      parameters[key] = DescribeValue(p, parameter, selection);
     }
   }
-  parameters.update({ { "interface_size", interfaceSizes },
-    { "label_size", byLabel(selection.Sizes) }, { "min_thickness", byLabel(selection.Thicknesses) },
-    { "shell", byLabel(selection.Shells) }, { "size_image", OrNull(p.SizeImage) },
-    { "labels", selection.Labels }, { "label_table", OrNull(p.Reading.LabelTable) },
-    { "frame_times", OrNull(p.Reading.FrameTimes) }, { "spacing", OrNull(p.Reading.Spacing) },
-    { "origin", OrNull(p.Reading.Origin) }, { "direction", OrNull(p.Reading.Direction) },
-    { "data_files_anywhere", p.Reading.DataFilesAnywhere }, { "space", ToString(p.Reading.Space) },
-    { "quality", p.Quality }, { "hausdorff", p.Hausdorff }, { "slices", OrNull(p.Slices) },
+  parameters.update({ { "space", ToString(p.Space()) }, { "quality", p.Quality },
+    { "hausdorff", p.Hausdorff }, { "slices", OrNull(p.Slices) },
     { "slice_count", OrNull(p.SliceCount) }, { "uncompressed", !p.Compress } });
   return parameters;
 }
@@ -249,7 +265,7 @@ ordered_json MakeReport(vtkMeshingStatistics* statistics, const Parameters& para
     { "parameters", DescribeParameters(parameters, labels.Selection) } };
   report.update(ordered_json::parse(statistics->ToJSON()));
   NameLabels(report, labels);
-  report["space"] = ToString(parameters.Reading.Space);
+  report["space"] = ToString(parameters.Space());
   report["time"] = DescribeTimes(*statistics, times);
   const double seconds = statistics->GetTotalTime();
   report["elements_per_second"] = seconds > 0

@@ -29,7 +29,7 @@ namespace voxplex::cli
 /** What is known of the labels. */
 struct LabelReport
 {
-  LabelSelection Selection;
+  ParameterValues Selection; ///< what has labels, see SelectLabels()
   LabelTable Names;
   std::string Source; ///< the file that the names are from; may be empty
 };

@@ -83,7 +83,8 @@ private:
 void ProtectInputs(const io::WholeFiles& files, const Parameters& p, const MeshingInput& input)
 {
   std::vector<std::string> paths = p.Inputs;
-  paths.insert(paths.end(), { p.SizeImage, p.Reading.LabelTable, p.Mesh, p.MeshInterfaces });
+  paths.insert(
+    paths.end(), { p.Text("size-image"), p.Text("label-table"), p.Mesh, p.MeshInterfaces });
   for (vtkSegmentationReader* const reader : { input.Labels.Get(), input.Sizes.Get() })
   {
     if (reader)
@@ -115,9 +116,9 @@ std::vector<double> TimesOfFrames(
   {
     return input.TimesOfFrames();
   }
-  if (!p.Reading.FrameTimes.empty())
+  if (p.Has("frame-times"))
   {
-    return p.Reading.FrameTimes;
+    return p.Numbers("frame-times");
   }
   const double* const range = given.Mesh->GetPointData()->GetArray("Time")->GetRange();
   return { range[0], range[1] };
@@ -168,45 +169,15 @@ void Warn(const std::vector<std::string>& warnings)
   }
 }
 
-/** What the user says of the place of the image. */
-void SetPlace(vtkSegmentationReader* reader, const ReadingOptions& options)
-{
-  if (!options.Spacing.empty())
-  {
-    reader->SetSpacing(options.Spacing.data());
-  }
-  if (!options.Origin.empty())
-  {
-    reader->SetOrigin(options.Origin.data());
-  }
-  if (!options.Direction.empty())
-  {
-    reader->SetDirection(options.Direction.data());
-  }
-}
-
 vtkSmartPointer<vtkSegmentationReader> ReadFile(
-  const std::vector<std::string>& paths, const ReadingOptions& options, UserInterface words)
+  const std::vector<std::string>& paths, const ParameterValues& values, UserInterface words)
 {
   const auto reader = vtkSmartPointer<vtkSegmentationReader>::New();
   for (const std::string& path : paths)
   {
     reader->AddFileName(path.c_str());
   }
-  reader->SetOverlap(options.Overlap);
-  reader->SetMaskThreshold(options.MaskThreshold);
-  reader->SetResampleMasks(options.ResampleMasks);
-  reader->SetSeriesUID(options.Series.c_str());
-  reader->SetLabelTableFileName(options.LabelTable.c_str());
-  for (const double time : options.FrameTimes)
-  {
-    reader->AddFrameTime(time);
-  }
-  SetPlace(reader, options);
-  reader->SetDataFilesAnywhere(options.DataFilesAnywhere);
-  reader->SetSpace(options.Space == Space::LPS ? vtkSegmentationReader::SPACE_LPS
-                                               : vtkSegmentationReader::SPACE_RAS);
-  Warn(ReadImage(reader, words));
+  Warn(ReadImage(reader, values, words));
   return reader;
 }
 
@@ -215,17 +186,19 @@ MeshingInput Read(const Parameters& p)
   MeshingInput input;
   if (!p.Inputs.empty())
   {
-    input.Labels = ReadFile(p.Inputs, p.Reading, p.Words);
+    input.Labels = ReadFile(p.Inputs, p.Values, p.Words);
   }
-  if (!p.SizeImage.empty())
+  if (const std::string sizes = p.Text("size-image"); !sizes.empty())
   {
-    ReadingOptions options; // where the sizes lie their own file says
-    options.Space = p.Reading.Space;
-    options.DataFilesAnywhere = p.Reading.DataFilesAnywhere;
-    input.Sizes = ReadFile({ p.SizeImage }, options, p.Words);
+    ParameterValues values; // where the sizes lie their own file says
+    for (const char* name : { "space", "data-files-anywhere" })
+    {
+      values[name] = p.Value(name).value_or(0.0);
+    }
+    input.Sizes = ReadFile({ sizes }, values, p.Words);
     if (input.Sizes->GetNumberOfFrames() > 1)
     {
-      throw RunError("--size-image: '" + p.SizeImage +
+      throw RunError("--size-image: '" + sizes +
         "' has several time frames; an image of sizes has three dimensions, and holds at all "
         "times");
     }
@@ -317,19 +290,17 @@ std::set<std::int64_t> AllLabels(vtkSegmentationReader* reader)
 void PrepareForFrames(const Parameters& p, const LabelTable& names, const MeshingInput& input)
 {
   const std::set<std::int64_t> labels = AllLabels(input.Labels);
-  const auto require = [&](const std::string& flag, const std::map<std::int64_t, double>& lengths)
+  for (const auto& [name, lengths] : input.Selection)
   {
-    for (const auto& [label, length] : lengths)
+    for (const auto& [label, length] : std::get<LabelValues>(lengths))
     {
-      if (!labels.empty() && labels.count(label) == 0)
+      if (!labels.empty() && labels.count(label.first) == 0)
       {
-        throw RunError("cannot repair '" + p.InputName() + "': " + flag +
-          ": no frame of the image has label " + std::to_string(label));
+        throw RunError("cannot repair '" + p.InputName() + "': --" + name +
+          ": no frame of the image has label " + std::to_string(label.first));
       }
     }
-  };
-  require("--min-thickness", input.Selection.Thicknesses);
-  require("--shell", input.Selection.Shells);
+  }
   const std::int64_t named = names.Entries.empty() ? 0 : names.Entries.rbegin()->first;
   const std::int64_t highest = labels.empty() ? 0 : *labels.rbegin();
   input.Repair->SetFirstShellLabel(1 + std::max(named, highest));
@@ -339,7 +310,7 @@ void PrepareForFrames(const Parameters& p, const LabelTable& names, const Meshin
 void RepairImage(const Parameters& p, MeshingInput& input)
 {
   const LabelTable names = GetLabelTable(input.Labels->GetOutput()->GetFieldData());
-  SelectRepairs(p, names, input.Selection);
+  input.Selection = SelectRepairs(p, names);
   input.Repair = MakeRepair(p.Values, input.Selection, p.Words);
   if (!input.Repair)
   {
@@ -364,21 +335,22 @@ void RepairImage(const Parameters& p, MeshingInput& input)
 }
 
 /** A shell is meshed if its label is. */
-void KeepShells(const MeshingInput& input, LabelSelection& selection)
+void KeepShells(const MeshingInput& input, ParameterValues& selection)
 {
-  if (!input.Repair || selection.Labels.empty())
+  const auto chosen = selection.find("labels");
+  if (!input.Repair || chosen == selection.end())
   {
     return;
   }
-  std::set<std::int64_t> labels(selection.Labels.begin(), selection.Labels.end());
+  auto& labels = std::get<LabelValues>(chosen->second);
   for (const auto& row : nlohmann::json::parse(input.Repair->ToJSON()))
   {
-    if (row.contains("new_label") && labels.contains(row["label"].get<std::int64_t>()))
+    if (row.contains("new_label") &&
+      labels.contains({ row["label"].get<std::int64_t>(), AnyLabel }))
     {
-      labels.insert(row["new_label"].get<std::int64_t>());
+      labels.emplace(std::pair(row["new_label"].get<std::int64_t>(), AnyLabel), 0.0);
     }
   }
-  selection.Labels.assign(labels.begin(), labels.end());
 }
 
 /** What was done to the image, what could not be done, and what is suspicious about it. */
@@ -440,11 +412,8 @@ LabelTable NameLabels(const Parameters& p, MeshingInput& input)
   }
   RepairImage(p, input);
   LabelTable names = GetLabelTable(input.Image()->GetFieldData());
-  LabelSelection selection = SelectLabels(p, names);
-  selection.Thicknesses = input.Selection.Thicknesses;
-  selection.Shells = input.Selection.Shells;
-  KeepShells(input, selection);
-  input.Selection = selection;
+  input.Selection.merge(SelectLabels(p, names));
+  KeepShells(input, input.Selection);
   return names;
 }
 

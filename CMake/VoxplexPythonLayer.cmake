@@ -15,9 +15,14 @@ set(_voxplex_python_files
   program.py
   py.typed
   pyvista_accessor.py
-  sources.py
   vtkdata.py
   xmlfiles.py)
+
+# Made from the table of parameters.
+set(_voxplex_made_files
+  meshing.py
+  options.py
+  sources.py)
 
 # Assembles it in `folder`, and installs it.
 #
@@ -29,17 +34,20 @@ function (voxplex_python_layer folder program destination component)
   set(_voxplex_program "${program}")
   configure_file(Python/voxplex/installation.py.in "${folder}/installation.py" @ONLY)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
-  add_custom_command(
-    OUTPUT "${folder}/meshing.py"
-    COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/Parameters/write_python.py"
-      "$<TARGET_FILE:voxplexParameters>" "${CMAKE_CURRENT_SOURCE_DIR}/Python/voxplex/meshing.py.in"
-      "${folder}/meshing.py"
-    DEPENDS voxplexParameters Parameters/write_python.py Python/voxplex/meshing.py.in
-    VERBATIM)
-  add_custom_target(VoxplexMeshingPy ALL DEPENDS "${folder}/meshing.py")
+  foreach (_voxplex_file IN LISTS _voxplex_made_files)
+    add_custom_command(
+      OUTPUT "${folder}/${_voxplex_file}"
+      COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/Parameters/write_python.py"
+        "$<TARGET_FILE:voxplexParameters>" "${CMAKE_CURRENT_SOURCE_DIR}/Python/voxplex/${_voxplex_file}.in"
+        "${folder}/${_voxplex_file}"
+      DEPENDS voxplexParameters Parameters/write_python.py "Python/voxplex/${_voxplex_file}.in"
+      VERBATIM)
+  endforeach ()
   list(TRANSFORM _voxplex_python_files PREPEND "${folder}/")
+  list(TRANSFORM _voxplex_made_files PREPEND "${folder}/")
+  add_custom_target(VoxplexMeshingPy ALL DEPENDS ${_voxplex_made_files})
   install(
-    FILES       ${_voxplex_python_files} "${folder}/installation.py" "${folder}/meshing.py"
+    FILES       ${_voxplex_python_files} ${_voxplex_made_files} "${folder}/installation.py"
     DESTINATION "${destination}"
     COMPONENT   "${component}")
 endfunction ()

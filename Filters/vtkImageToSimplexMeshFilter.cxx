@@ -486,8 +486,7 @@ void vtkImageToSimplexMeshFilter::CheckParameters() const
   }
   if (this->NumberOfElements > 0 && this->Delta > 0.0 && !this->DeltaIsSuggestion)
   {
-    throw InputError("Both {delta} and {elements} are set; {delta} is what meshing finds for "
-                     "{elements}: set one of the two to 0.");
+    throw InputError("{delta}" + voxplex::FindParameter("delta").Excludes.Text + ".");
   }
 }
 

@@ -22,6 +22,7 @@ struct GroupText
 
 /** In the order of ParameterGroup. */
 constexpr GroupText GroupTexts[] = {
+  { "Reading of images", "In place of what the file says, or where it leaves a choice." },
   { "Grey-value images",
     "Mesh the region that an isosurface of a grey-value image bounds, as one label." },
   { "Sampling distance and element sizes",
@@ -76,14 +77,14 @@ std::string Mention(UserInterface interface, const MeshingParameter& parameter)
   {
     return Mention(UserInterface::VTK, parameter);
   }
-  const bool isList = parameter.Kind >= ParameterKind::Labels;
+  const bool isMethod = parameter.Kind >= ParameterKind::Labels || parameter.IsOfReading();
   const bool isAdded =
     parameter.Kind == ParameterKind::Labels || parameter.Kind == ParameterKind::Times;
   switch (interface)
   {
     case UserInterface::VTK:
     case UserInterface::ITK:
-      return isList ? (isAdded ? "Add" : "Set") + name + "()" : name;
+      return isMethod ? (isAdded ? "Add" : "Set") + name + "()" : name;
     case UserInterface::CommandLine:
       return "--" + name;
     case UserInterface::Slicer:
@@ -132,12 +133,12 @@ const char* FormOf(UserInterface interface, ParameterKind kind)
   return "";
 }
 
-/** The default, or the value that switches the parameter off: 0, off, in Python False. */
+/** The default, or the value that switches the parameter off: 0, off, in Python False, an empty text. */
 std::string ValueText(UserInterface interface, const MeshingParameter& p, bool isDefault)
 {
   if (p.Kind != ParameterKind::Flag)
   {
-    return isDefault ? p.Default : "0";
+    return isDefault ? p.Default : p.Kind == ParameterKind::File ? "empty" : "0";
   }
   const bool isOn = isDefault && p.IsOnByDefault();
   return interface == UserInterface::Python ? (isOn ? "True" : "False") : (isOn ? "on" : "off");
@@ -306,6 +307,12 @@ bool MeshingParameter::IsNumber() const
     this->Kind == ParameterKind::Bytes;
 }
 
+bool MeshingParameter::IsOfLabels() const
+{
+  return this->Kind == ParameterKind::Labels || this->Kind == ParameterKind::LabelSizes ||
+    this->Kind == ParameterKind::InterfaceSizes;
+}
+
 const MeshingParameter& FindParameter(std::string_view name)
 {
   const auto& all = MeshingParameters();
@@ -412,6 +419,23 @@ std::string FaultOf(const MeshingParameter& parameter, double value, bool force)
                             : "up to " + NumberText(range.High));
   }
   return "{" + parameter.Name + "} is " + NumberText(value) + "; it must be " + must + ".";
+}
+
+std::string ClashOf(const std::function<bool(const MeshingParameter&)>& isGiven)
+{
+  for (const MeshingParameter& parameter : MeshingParameters())
+  {
+    for (const ParameterRule* const rule : { &parameter.Needs, &parameter.Excludes })
+    {
+      const bool isBroken = !rule->Other.empty() && isGiven(parameter) &&
+        isGiven(FindParameter(rule->Other)) == (rule == &parameter.Excludes);
+      if (isBroken)
+      {
+        return "{" + parameter.Name + "}" + rule->Text;
+      }
+    }
+  }
+  return "";
 }
 
 std::string BeyondLimit(const MeshingParameter& parameter, double value)

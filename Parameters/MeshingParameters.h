@@ -2,22 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file MeshingParameters.h
- * @brief The table of the parameters of meshing.
+ * @brief The table of the parameters of meshing, and of what goes before it: reading and repair.
  *
  * The command line, the modules for 3D Slicer, the Python package, the panels of the ParaView plugin and
  * Documentation/Parameters.md are made from it. Messages name parameters by their names in the table, and
  * InTermsOf() brings them to the terms of an interface.
  *
- * The VTK filters declare their parameters again. Testing/Parameters compares them with the table.
+ * The VTK classes declare their parameters again. Testing/Parameters compares them with the table.
  */
 #ifndef voxplex_MeshingParameters_h
 #define voxplex_MeshingParameters_h
 
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace voxplex
@@ -30,6 +34,9 @@ enum class ParameterKind
   Whole,
   Bytes,
   Word, ///< one of several words
+  Text,
+  File,
+  Numbers, ///< of a vector or a matrix
   Labels,
   LabelSizes,     ///< a length for each of some labels
   InterfaceSizes, ///< a length for each of some interfaces
@@ -40,6 +47,7 @@ enum class ParameterKind
 /** In the order in which users see them. */
 enum class ParameterGroup
 {
+  Reading,
   GreyValues,
   Sampling,
   Labels,
@@ -57,6 +65,14 @@ struct ParameterRange
   double Low = -std::numeric_limits<double>::infinity();
   double High = std::numeric_limits<double>::infinity();
   bool LowIsOutside = false;
+};
+
+/** How a parameter goes with another one. */
+struct ParameterRule
+{
+  std::string Other{}; ///< empty: there is no rule
+  std::string
+    Text{}; ///< follows the parameter's name if the rule is broken; names others in braces
 };
 
 struct MeshingParameter
@@ -80,6 +96,7 @@ struct MeshingParameter
   double Step = 0.0;                ///< step of sliders; 0: none
   std::vector<std::string> Words{}; ///< their positions are the values of the filter's enumeration
   std::string Unit{};               ///< the word that --help shows for the value
+  std::string Example{};            ///< of Numbers: as many as there must be, with commas between
   /**
    * Describes the parameter. The text begins with a small letter, has no full stop at its end, and
    * names other parameters in braces. The text of a flag begins with a verb and describes the flag
@@ -90,7 +107,9 @@ struct MeshingParameter
   /** Values below or above need Force. */
   std::optional<double> ForceBelow{};
   std::optional<double> ForceAbove{};
-  std::string ForceWhy{}; ///< follows "below LIMIT" or "above LIMIT"
+  std::string ForceWhy{};   ///< follows "below LIMIT" or "above LIMIT"
+  ParameterRule Needs{};    ///< without the other the parameter has no effect
+  ParameterRule Excludes{}; ///< with the other it has none, or contradicts it
   /**
    * Another parameter, of grey-value images. Where users do not have it, this parameter sets it.
    */
@@ -110,9 +129,14 @@ struct MeshingParameter
 
   ParameterGroup Group{};
 
-  /** Whether it is one of vtkSegmentationRepair, not of the meshing filters. */
+  ///@{
+  /** Whether it is one of vtkSegmentationReader or of vtkSegmentationRepair, not of the meshing filters. */
+  bool IsOfReading() const { return this->Group == ParameterGroup::Reading; }
   bool IsOfRepair() const { return this->Group == ParameterGroup::Repair; }
+  ///@}
   bool IsNumber() const;
+  /** Whether it has several values, each with a label. */
+  bool IsOfLabels() const;
   bool IsOnByDefault() const { return this->Default == "on"; }
   /**
    * Whether the value may be absent. Where a number always has a value, 0 means that it is absent.
@@ -166,6 +190,12 @@ std::string InTermsOf(UserInterface interface, const std::string& message);
  */
 std::string FaultOf(const MeshingParameter& parameter, double value, bool force);
 
+/**
+ * "{delta} and {elements} do not go together: ..." for InTermsOf() if a parameter that is given needs another that is
+ * not, or excludes one that is; otherwise empty. A word that is the default is not given.
+ */
+std::string ClashOf(const std::function<bool(const MeshingParameter&)>& isGiven);
+
 /** "below 1.93" or "above 15" if the value needs Force; otherwise empty. */
 std::string BeyondLimit(const MeshingParameter& parameter, double value);
 
@@ -174,10 +204,17 @@ const char* TitleOf(ParameterGroup group);
 const char* DescriptionOf(ParameterGroup group);
 
 /**
- * Values by the names of the parameters. The value of a word is its position, that of a flag 0 or
- * 1. Parameters that were not given are absent.
+ * Labels, or interfaces with the larger label first, and their sizes, if the parameter has sizes. Where one label is
+ * meant, or all its interfaces, the other is AnyLabel.
  */
-using ParameterValues = std::map<std::string, double, std::less<>>;
+using LabelValues = std::map<std::pair<std::int64_t, std::int64_t>, double>;
+inline constexpr std::int64_t AnyLabel = -1;
+
+/** The value of a word is its position, that of a flag 0 or 1; vectors and times have several numbers. */
+using ParameterValue = std::variant<double, std::string, std::vector<double>, LabelValues>;
+
+/** Values by the names of the parameters. Parameters that were not given are absent. */
+using ParameterValues = std::map<std::string, ParameterValue, std::less<>>;
 
 } // namespace voxplex
 

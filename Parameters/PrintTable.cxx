@@ -18,8 +18,15 @@ namespace
 using namespace voxplex;
 using nlohmann::ordered_json;
 
-constexpr const char* Kinds[] = { "flag", "real", "whole", "bytes", "word", "labels", "label-sizes",
-  "interface-sizes", "image", "times" };
+constexpr const char* Kinds[] = { "flag", "real", "whole", "bytes", "word", "text", "file",
+  "numbers", "labels", "label-sizes", "interface-sizes", "image", "times" };
+
+/** The class that has the parameter; times of frames are also of the reader. */
+const char* ClassOf(const MeshingParameter& p)
+{
+  constexpr const char* filters[] = { "Filter", "", "", "Tets", "Pentatopes" };
+  return p.IsOfReading() ? "Reader" : p.IsOfRepair() ? "Repair" : filters[p.Dimension];
+}
 
 /** Infinity is null, as JSON has none. */
 ordered_json Range(const ParameterRange& range)
@@ -32,10 +39,10 @@ ordered_json Describe(const MeshingParameter& p)
   ordered_json row = { { "name", p.Name }, { "group", TitleOf(p.Group) },
     { "kind", Kinds[static_cast<int>(p.Kind)] }, { "property", PropertyOf(p) },
     { "label", LabelOf(p) }, { "default", p.Default }, { "zero", p.Zero }, { "step", p.Step },
-    { "unit", p.Unit }, { "dimension", p.Dimension }, { "of_repair", p.IsOfRepair() },
-    { "words", p.Words }, { "range", Range(p.Range) },
-    { "usual", Range(p.Usual.value_or(p.Range)) }, { "low_is_outside", p.Range.LowIsOutside },
-    { "force", nullptr } };
+    { "unit", p.Unit }, { "dimension", p.Dimension }, { "class", ClassOf(p) },
+    { "needs", p.Needs.Other }, { "excludes", p.Excludes.Other }, { "words", p.Words },
+    { "range", Range(p.Range) }, { "usual", Range(p.Usual.value_or(p.Range)) },
+    { "low_is_outside", p.Range.LowIsOutside }, { "force", nullptr } };
   if (const auto limit = p.ForceBelow ? p.ForceBelow : p.ForceAbove)
   {
     row["force"] = *limit;
@@ -54,14 +61,14 @@ ordered_json Describe(const MeshingParameter& p)
   return row;
 }
 
-/** The method of the class that has it. Lists have others. */
+/** The method of the class that has it: of times, which filters know from the image, that of the reader. */
 void PrintSetter(const MeshingParameter& p)
 {
-  constexpr const char* classes[] = { "Filter", "", "", "Tets", "Pentatopes" };
-  if (p.Kind < ParameterKind::Labels)
+  const bool isTimes = p.Kind == ParameterKind::Times;
+  if (p.Kind != ParameterKind::Image)
   {
-    std::cout << "{ \"" << p.Name << "\", To(&"
-              << (p.IsOfRepair() ? "Repair" : classes[p.Dimension]) << "::Set" << PropertyOf(p)
+    std::cout << "{ \"" << p.Name << "\", To(&" << (isTimes ? "Reader" : ClassOf(p))
+              << (isTimes || p.Kind == ParameterKind::Labels ? "::Add" : "::Set") << PropertyOf(p)
               << ") },\n";
   }
 }

@@ -18,6 +18,15 @@ constexpr ParameterRange Positive{ 0.0, Infinity, true };
 constexpr ParameterRange NotNegative{ 0.0, Infinity };
 constexpr ParameterRange Sigmas{ 0.0, 5.0 };
 
+const ParameterRule NotOfGreyValues{ "isovalue",
+  ": grey-value images have no labels; leave it or {isovalue} out" };
+const ParameterRule OfIsosurface{ "isovalue",
+  ": inside of what? Give the isosurface with {isovalue}" };
+const ParameterRule OfGrading{ "grading",
+  ": only for interfaces that are graded; give {grading} lfs as well, or leave it out" };
+const ParameterRule OfPicking{ "picking",
+  " is about picking regions, and {picking} switches them off: leave one of the two out" };
+
 /** The columns that all parameters have are arguments. `rest` has the other members. */
 MeshingParameter Number(Kind kind, const char* name, int dimension, ParameterRange range,
   const char* defaultValue, const char* unit, const char* help, MeshingParameter rest = {})
@@ -45,10 +54,60 @@ MeshingParameter Word(const char* name, int dimension, const char* defaultValue,
   return Number(Kind::Word, name, dimension, {}, defaultValue, rest.Unit.c_str(), help, rest);
 }
 
-MeshingParameter List(Kind kind, const char* name, const char* unit, const char* help,
-  const MeshingParameter& rest = {})
+MeshingParameter List(Kind kind, const char* name, ParameterRange range, const char* unit,
+  const char* help, const MeshingParameter& rest = {})
 {
-  return Number(kind, name, 0, {}, "", unit, help, rest);
+  return Number(kind, name, 0, range, "", unit, help, rest);
+}
+
+/** In programs that mesh what they have there are no files to read. */
+Parameters Reading()
+{
+  Parameters all{
+    Word("overlap", 0, "smallest", { "smallest", "order" },
+      "which of the masks that have a voxel gets it: the smallest, of equals the first; or the "
+      "first "
+      "in order. Also of segments of a .seg.nrrd file, and of DICOM segmentations"),
+    Number(Kind::Real, "mask-threshold", 0, { 0.0, 1.0 }, "0.5", "NUMBER",
+      "above which probabilities, from 0 to 1, are inside: of masks, and of DICOM segmentations"),
+    Flag("resample-masks", 0, "off",
+      "resample masks whose grids differ by more than whole voxels to the smallest voxels, by "
+      "nearest neighbour; they are refused otherwise"),
+    List(Kind::Text, "series", {}, "UID", "the DICOM series to read, if the folder holds several",
+      { .Property = "SeriesUID", .Python = "series_uid", .Panel = None }),
+    List(Kind::File, "label-table", {}, "FILE",
+      "text file with the names of the labels, and perhaps colours: that of an atlas, of "
+      "FreeSurfer, "
+      "ITK-SNAP or 3D Slicer, or lines like '3 Tibia' or '3,Tibia,220,216,20'",
+      { .Property = "LabelTableFileName",
+        .Zero = "the names that the image has, or those in FILE.nii.txt beside FILE.nii.gz",
+        .Excludes = NotOfGreyValues,
+        .Panel = "Label Table File" }),
+    Word("space", 0, "lps", { "lps", "ras" },
+      "coordinates of the image and the mesh: in those of DICOM and ITK (lps) x and y grow to the "
+      "left and to the back of the patient, in those of NIfTI and 3D Slicer's scene (ras) to the "
+      "right and to the front"),
+    List(Kind::Numbers, "spacing", Positive, "X,Y,Z",
+      "the distances of voxels along the axes of the image, in place of what its file says: for "
+      "formats that do not know them (TIFF)",
+      { .Example = "0.5,0.5,2" }),
+    List(Kind::Numbers, "origin", {}, "X,Y,Z",
+      "the place of the first voxel, in place of what the file says, in the coordinates of {space}",
+      { .Example = "-10,0,25.5" }),
+    List(Kind::Numbers, "direction", {}, "NUMBERS",
+      "the directions of the axes of the image, in place of what the file says, in the coordinates "
+      "of {space}: nine numbers, row by row, of a matrix whose columns they are",
+      { .Example = "1,0,0,0,1,0,0,0,1" }),
+    Flag("data-files-anywhere", 0, "off",
+      "let the header of an image (.nhdr, .mhd, .hdr) name data files that are not in its folder "
+      "or "
+      "below; only for headers that you trust"),
+  };
+  for (MeshingParameter& parameter : all)
+  {
+    parameter.Slicer = None;
+  }
+  return all;
 }
 
 Parameters GreyValues()
@@ -59,10 +118,14 @@ Parameters GreyValues()
       "label",
       { .Usual = ParameterRange{ -1e9, 1e9 }, .Step = 0.1 }),
     Word("inside", 0, "above", { "above", "below" },
-      "side of the isosurface on which the object lies; above: where values are greater"),
+      "side of the isosurface on which the object lies; above: where values are greater",
+      { .Needs = OfIsosurface }),
     Number(Kind::Whole, "inside-label", 0, { 1.0, LargestWhole }, "1", "LABEL",
       "the label of the elements inside of the isosurface",
-      { .Label = "Label of the inside", .Usual = ParameterRange{ 1.0, 65535.0 }, .Step = 1.0 }),
+      { .Label = "Label of the inside",
+        .Usual = ParameterRange{ 1.0, 65535.0 },
+        .Step = 1.0,
+        .Needs = OfIsosurface }),
     // Programs that have no name for it set it by smoothing.
     Number(Kind::Real, "grey-smoothing", 0, Sigmas, "0", "VOXELS",
       "standard deviation of the smoothing of noise in grey values, in voxels",
@@ -82,7 +145,10 @@ Parameters Sampling()
     Number(Kind::Real, "delta", 0, Positive, "", "LENGTH",
       "sampling distance of the interfaces: the edges of their triangles are about one to two "
       "times as long; the number of elements grows with the square of 1/delta",
-      { .Zero = "derived from the spacing" }),
+      { .Zero = "derived from the spacing",
+        .Excludes = { "elements",
+          " and {elements} do not go together: delta is what is solved for; leave one of the two "
+          "out" } }),
     Number(Kind::Whole, "elements", 0, { 1.0, LargestWhole }, "", "NUMBER",
       "solve for the delta that gives this number of elements, to within a tenth, in place of "
       "{delta}; it takes two or three times as long",
@@ -96,13 +162,13 @@ Parameters Sampling()
     Number(Kind::Real, "size", 0, Positive, "", "LENGTH",
       "upper bound of the elements' circumradii, everywhere",
       { .Property = "ElementSize", .Label = "Largest element", .Zero = "no bound" }),
-    List(Kind::LabelSizes, "label-size", "LABEL=LENGTH",
+    List(Kind::LabelSizes, "label-size", Positive, "LABEL=LENGTH",
       "upper bound of the elements' circumradii in single labels",
       { .Label = "Largest element of labels",
         .Slicer = "labelSizes",
         .Python = "label_sizes",
         .Panel = "Label Table" }),
-    List(Kind::Image, "size-image", "FILE",
+    List(Kind::Image, "size-image", {}, "FILE",
       "image whose values are upper bounds of the elements' circumradii, 0 where there is no bound",
       { .Property = "ElementSizeData",
         .Label = "Image of sizes",
@@ -114,8 +180,8 @@ Parameters Sampling()
 Parameters Labels()
 {
   return {
-    List(Kind::Labels, "labels", "LIST", "mesh these labels only; the others become background",
-      { .Property = "Label", .Panel = "Label Table" }),
+    List(Kind::Labels, "labels", {}, "LIST", "mesh these labels only; the others become background",
+      { .Property = "Label", .Excludes = NotOfGreyValues, .Panel = "Label Table" }),
   };
 }
 
@@ -149,7 +215,7 @@ Parameters Shapes()
 Parameters Interfaces()
 {
   return {
-    List(Kind::InterfaceSizes, "interface-size", "LABELS=LENGTH",
+    List(Kind::InterfaceSizes, "interface-size", Positive, "LABELS=LENGTH",
       "sampling distance of all interfaces of a label, or of the interface between two labels (0 "
       "is background), in place of delta; it may be smaller or larger",
       { .Label = "Interface sizes",
@@ -159,10 +225,10 @@ Parameters Interfaces()
     Number(Kind::Real, "feature-ratio", 0, Positive, "1", "RATIO",
       "with {grading} lfs: sampling distance over local feature size where that gives more than "
       "delta",
-      { .Usual = ParameterRange{ 0.1, 4.0 }, .Step = 0.1 }),
+      { .Usual = ParameterRange{ 0.1, 4.0 }, .Step = 0.1, .Needs = OfGrading }),
     Number(Kind::Real, "largest-feature", 0, Positive, "12", "VOXELS",
       "with {grading} lfs: upper bound of the local feature size (lambda), in voxels",
-      { .Usual = ParameterRange{ 1.0, 100.0 }, .Step = 1.0 }),
+      { .Usual = ParameterRange{ 1.0, 100.0 }, .Step = 1.0, .Needs = OfGrading }),
     Number(Kind::Real, "gradation", 0, NotNegative, "0.3", "SLOPE",
       "how much sizes and interface sizes may change over a unit of length",
       { .Usual = ParameterRange{ 0.0, 1.0 }, .Zero = "no limit" }),
@@ -200,7 +266,11 @@ Parameters Quality()
         .ForceWhy = "meshes can become very large" }),
     Number(Kind::Real, "optimise-seconds", 3, Positive, "", "SECONDS",
       "stop improving shapes after this time, even if work remains",
-      { .Property = "OptimisationTimeLimit", .Label = "Time for optimising", .Zero = "no limit" }),
+      { .Property = "OptimisationTimeLimit",
+        .Label = "Time for optimising",
+        .Zero = "no limit",
+        .Excludes = { "optimise",
+          " limits what {optimise} switches off: leave one of the two out" } }),
     Flag("junctions", 3, "on",
       "sample the curves where three labels or more meet before all else, so that edges follow "
       "them",
@@ -226,25 +296,30 @@ Parameters Quality()
 /** In the order in which they are done. */
 Parameters Repair()
 {
-  return {
+  Parameters all{
     Number(Kind::Whole, "fill-holes", 0, { 1.0, LargestWhole }, "", "VOXELS",
       "fill cavities of at most this number of voxels with the label around them",
       { .Zero = "none is filled" }),
     Flag("remove-spikes", 0, "off",
       "remove strings of voxels, one voxel wide, that hang on a label on one side only"),
-    List(Kind::LabelSizes, "min-thickness", "LABEL=LENGTH",
+    List(Kind::LabelSizes, "min-thickness", Positive, "LABEL=LENGTH",
       "thicken labels where they are thinner, at the cost of what is around them",
       { .Property = "MinimumThickness",
         .Label = "Smallest thickness of labels",
         .Slicer = "minimumThickness",
         .Panel = "Minimum Thickness" }),
-    List(Kind::LabelSizes, "shell", "LABEL=LENGTH",
+    List(Kind::LabelSizes, "shell", {}, "LABEL=LENGTH",
       "make a new label of this thickness around a label, in background, or, if it is negative, of "
       "the outer voxels of the label",
       { .Label = "Shells", .Slicer = "shells", .Python = "shells" }),
     Flag("check-image", 0, "off",
       "report what is suspicious in the image, such as crumbs, cavities and thin parts"),
   };
+  for (MeshingParameter& parameter : all)
+  {
+    parameter.Excludes = NotOfGreyValues;
+  }
+  return all;
 }
 
 Parameters SpaceTime()
@@ -275,15 +350,20 @@ Parameters SpaceTime()
         .Panel = "Fight Slivers" }),
     Number(Kind::Whole, "picks", 4, { 1.0, LargestWhole }, "10", "NUMBER",
       "random points to try in a picking region",
-      { .Property = "NumberOfPicks", .Label = "Number of picks", .Python = None }),
+      { .Property = "NumberOfPicks",
+        .Label = "Number of picks",
+        .Excludes = OfPicking,
+        .Python = None }),
     Number(Kind::Real, "sliver-bound", 4, { 0.0, 0.999 }, "0.01", "RATIO",
       "normalized volume below which an element is a sliver",
       { .Usual = ParameterRange{ 0.0, 0.03 },
         .ForceAbove = 0.03,
         .ForceWhy = "meshes can become very large",
+        .Excludes = OfPicking,
         .Python = None }),
     Number(Kind::Whole, "seed", 4, { 0.0, LargestWhole }, "0", "NUMBER",
-      "seed of the random points", { .Property = "RandomSeed", .Label = "Random seed" }),
+      "seed of the random points",
+      { .Property = "RandomSeed", .Label = "Random seed", .Excludes = OfPicking }),
     Flag("fine-grained", 4, "on", "let waiting threads help others to expand cavities",
       { .Label = "Fine-grained", .Python = None, .Panel = "Fine-Grained Help" }),
   };
@@ -349,6 +429,7 @@ Parameters Join(const std::vector<GroupOfParameters>& groups)
 const std::vector<MeshingParameter>& MeshingParameters()
 {
   static const Parameters all = Join({
+    { Group::Reading, Reading() },
     { Group::GreyValues, GreyValues() },
     { Group::Sampling, Sampling() },
     { Group::Labels, Labels() },

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the XML of a meshing filter for ParaView's server manager: write_paraview.py PROGRAM PROXY PROPERTIES OUTPUT
+"""Writes the XML of a proxy for ParaView's server manager: write_paraview.py PROGRAM PROXY PROPERTIES OUTPUT
 
-PROGRAM prints the table of parameters as JSON. The element Properties of the file PROXY says the dimension of the images; it
-is replaced by the properties and groups of the file PROPERTIES, which says how a parameter of the table stands there.
+PROGRAM prints the table of parameters as JSON. In the file PROXY, a Parameter is replaced by its property, and Shared by the
+element of that name in the file PROPERTIES. Properties, which says the dimension of the images, is replaced by all properties and
+groups of that file, whose head says how a parameter of the table stands there.
 """
 import json
 import subprocess
@@ -12,6 +13,11 @@ import sys
 from xml.etree import ElementTree
 
 LARGEST_WHOLE = 2**31 - 1
+# For an element of XML; all other attributes of a Parameter are those of its property.
+DIRECTIONS = {"name", "show", "words", "min", "max", "standard", "property"}
+TYPES = {"real": "Double", "times": "Double", "numbers": "Double", "label-sizes": "Double", "text": "String", "file": "String"}
+# Of lists: the names of the values in a row.
+ROWS = {"times": [], "label-sizes": ["Label", "Length"]}
 
 
 def default_of(p):
@@ -25,11 +31,13 @@ def add_domain(prop, p, template):
     """What the value may be."""
     if p["kind"] == "flag":
         ElementTree.SubElement(prop, "BooleanDomain", name="bool")
+    elif p["kind"] == "file":
+        ElementTree.SubElement(prop, "FileListDomain", name="files")
     elif p["words"]:
         domain = ElementTree.SubElement(prop, "EnumerationDomain", name="enum")
         for value, text in enumerate(template.get("words").split("|")):
             ElementTree.SubElement(domain, "Entry", text=text, value=str(value))
-    else:
+    elif p["kind"] in ("real", "whole"):
         low, high = p["usual"]
         limits = {"min": 0 if p["default"] == "" else low, "max": None if high == LARGEST_WHOLE else high}
         limits.update({limit: None for limit in limits if template.get(limit) == "none"})
@@ -38,18 +46,24 @@ def add_domain(prop, p, template):
 
 
 def make_property(p, template):
-    is_list = p["kind"] == "times"
-    prop = ElementTree.Element("DoubleVectorProperty" if p["kind"] in ("real", "times") else "IntVectorProperty",
-                               name=p["property"], command=("Add" if is_list else "Set") + p["property"], label=p["panel"],
-                               number_of_elements="0" if is_list else "1")
-    if is_list:
-        prop.attrib.update(clean_command=f"Clear{p['property']}s", number_of_elements_per_command="1", repeat_command="1")
-    else:
+    row = ROWS.get(p["kind"])
+    prop = ElementTree.Element(TYPES.get(p["kind"], "Int") + "VectorProperty", name=template.get("property", p["property"]),
+                               command=("Add" if p["kind"] == "times" else "Set") + p["property"], label=p["panel"],
+                               number_of_elements="1" if row is None else "0")
+    if row is not None:
+        prop.attrib.update(clean_command=f"Clear{p['property']}s", number_of_elements_per_command=str(len(row) or 1),
+                           repeat_command="1")
+    elif p["kind"] not in ("text", "file", "numbers"):
         prop.set("default_values", default_of(p))
     if not template.get("standard"):
         prop.set("panel_visibility", "advanced")
+    prop.attrib.update({key: value for key, value in template.items() if key not in DIRECTIONS})
     prop.extend(template)  # a domain or hints of its own
-    if not is_list and not any(child.tag.endswith("Domain") for child in template):
+    if row:
+        labels = ElementTree.SubElement(ElementTree.SubElement(prop, "Hints"), "ShowComponentLabels")
+        for component, label in enumerate(row):
+            ElementTree.SubElement(labels, "ComponentLabel", component=str(component), label=label)
+    if row is None and not any(child.tag.endswith("Domain") for child in template):
         add_domain(prop, p, template)
     texts = [p["panel_help"], template.text, *(child.tail for child in template)]
     for child in template:
@@ -62,9 +76,8 @@ def make_property(p, template):
     return prop
 
 
-def properties(table, groups, dimension):
+def properties(parameters, groups, dimension):
     """The properties, and the groups that show them."""
-    parameters = {p["name"]: p for p in table}
     found, shown = [], []
     for group in groups:
         members = []
@@ -82,11 +95,19 @@ def properties(table, groups, dimension):
 
 
 def write(table, proxy, template):
+    parameters = {p["name"]: p for p in table}
+    groups = ElementTree.parse(template).getroot()
     root = ElementTree.parse(proxy).getroot()
     source = root.find("ProxyGroup/SourceProxy")
-    place = source.find("Properties")
-    at = list(source).index(place)
-    source[at:at + 1] = properties(table, ElementTree.parse(template).getroot(), int(place.get("dimension")))
+    made = []
+    for element in source:
+        if element.tag == "Properties":
+            made += properties(parameters, groups, int(element.get("dimension")))
+        elif element.tag == "Shared":
+            made.append(groups.find(f"Group/*[@name='{element.get('name')}']"))
+        else:
+            made.append(make_property(parameters[element.get("name")], element) if element.tag == "Parameter" else element)
+    source[:] = made
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="unicode")
 

@@ -16,7 +16,7 @@ from .fields import Label
 from .files import Path, in_words, number_list, temporary_folder
 from .images import Image
 from .meshes import Mesh, mesh_options
-from .meshing import labels_of
+from .options import labels_of
 from .program import Progress
 from .sources import image_of, input_of, reading_of
 

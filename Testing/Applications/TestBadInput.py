@@ -94,7 +94,7 @@ class CommandLine(ProgramTestCase):
             (("--origin", "1,1,1,1"), "--origin: give 3 numbers with commas between them, such as -10,0,25.5, not '1,1,1,1'"),
             (("--origin", "0,inf,0"), "--origin: must be a finite number"),
             (("--direction", "1,0,0"), "--direction: give 9 numbers"),
-            (("--direction", "1,0,0,0,1,0,0,0,0"), "--direction: .*'1,0,0,0,1,0,0,0,0' are not independent"),
+            (("--direction", "1,0,0,0,1,0,0,0,0"), "--direction: the columns .*, and these are not independent"),
             (("--direction", "1,2,0,1,2,0,0,0,1"), "--direction: the columns of the matrix .* are not independent"),
             (("--direction", "0,0,0,0,0,0,0,0,0"), "--direction: .* are not independent"),
             (("--direction", "0,-2,0,0.5,0,0,0,0,1"), "--direction: .* must have the length 1, .* have 0.5, 2 and 1; of an affine, .* --spacing"),

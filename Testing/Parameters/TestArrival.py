@@ -41,7 +41,8 @@ PENTATOPES = (
 # What changes no mesh of one thread, and what other tests give: images of sizes and times of frames.
 ELSEWHERE = {"OptimisationTimeLimit", "NumberOfThreads", "Reproducible", "FineGrained", "ContentionManager",
              "LoadBalancer", "PinThreads", "MemoryLimit", "ElementSizeData", "FrameTime"}
-ELSEWHERE |= {p["property"] for p in TABLE if p["of_repair"]}  # Testing/Python/TestRepair.py
+# Testing/Python/TestRepair.py; of reading below, and Testing/Applications/TestGeometry.py and TestLabelNames.py
+ELSEWHERE |= {p["property"] for p in TABLE if p["class"] in ("Reader", "Repair")}
 
 
 def text_of(values, between):
@@ -105,7 +106,7 @@ class Arrival(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def filter_of(self, array, dimension, properties):
-        mesher = make_filter({"dimension": dimension})
+        mesher = make_filter({"class": "Tets" if dimension == 3 else "Pentatopes"})
         image = voxplex.Image(array if dimension == 3 else array[0]).to_vtk()
         if dimension == 4:  # the components are frames
             image.GetPointData().SetScalars(numpy_to_vtk(array.reshape(len(array), -1).T.copy(), deep=True))

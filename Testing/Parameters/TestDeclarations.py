@@ -10,7 +10,7 @@ import sys
 import unittest
 from xml.etree import ElementTree
 
-from voxplex import vtkImageToPentatopeMeshFilter, vtkImageToTetMeshFilter
+from voxplex import vtkImageToPentatopeMeshFilter, vtkImageToTetMeshFilter, vtkSegmentationReader, vtkSegmentationRepair
 
 from table import BY_PROPERTY, SOURCE, TABLE, default_of
 
@@ -24,11 +24,14 @@ XML = SOURCE / "Plugins" / "ParaView" / "XML"
 OF_PARAVIEW = {"DeltaIsSuggestion", "InputMode", "InterfaceTable", "LabelTable", "Vocabulary"}
 
 
+def elements(name):
+    return list(ElementTree.fromstring(write(TABLE, XML / f"{name}.xml.in", XML / "Properties.xml.in")).iter())
+
+
 def properties(name):
     """The properties of a proxy with numbers, by name."""
-    root = ElementTree.fromstring(write(TABLE, XML / f"{name}.xml.in", XML / "Properties.xml.in"))
-    return {p.get("name"): p for kind in ("Int", "Double") for p in root.iter(kind + "VectorProperty")
-            if p.get("command", "").startswith("Set") and p.get("name") not in OF_PARAVIEW}
+    return {p.get("name"): p for p in elements(name) if p.tag in ("IntVectorProperty", "DoubleVectorProperty") and
+            p.get("command", "").startswith("Set") and p.get("name") not in OF_PARAVIEW}
 
 
 class ParaView(unittest.TestCase):
@@ -43,16 +46,23 @@ class ParaView(unittest.TestCase):
 
     def test_all_are_there(self):
         for name, (_, dimension) in self.PROXIES.items():
-            wanted = {p["property"] for p in BY_PROPERTY.values() if p["dimension"] in (0, dimension) and not p["of_repair"]}
+            wanted = {p["property"] for p in BY_PROPERTY.values()
+                      if p["dimension"] in (0, dimension) and p["class"] not in ("Reader", "Repair")}
             self.assertEqual(wanted - set(properties(name)) - {"MemoryLimit"}, set(), name)
 
-    def test_repair(self):
-        """Its proxy is written by hand."""
-        root = ElementTree.parse(XML / "SegmentationRepair.xml").getroot()
-        found = {p.get("command"): p for p in root.iter() if p.get("command", "").startswith("Set")}
-        for parameter in (p for p in TABLE if p["of_repair"]):
-            prop = found["Set" + parameter["property"]]
-            self.assertEqual(prop.get("default_values", ""), "" if parameter["kind"] == "label-sizes" else "0")
+    def test_reading_and_repair(self):
+        """Of one value, with the default of the class, or with a command for each row."""
+        for name, kind, of in (("SegmentationReader", vtkSegmentationReader, "Reader"),
+                               ("SegmentationRepair", vtkSegmentationRepair, "Repair")):
+            found = {p.get("command"): p for p in elements(name) if p.get("command")}
+            for parameter in (p for p in TABLE if p["class"] == of and p["panel"]):
+                prop = found["Set" + parameter["property"]]
+                if parameter in BY_PROPERTY.values():
+                    self.assertEqual(float(prop.get("default_values")), getattr(kind(), "Get" + parameter["property"])())
+                elif parameter["kind"] != "file":
+                    self.assertTrue(prop.get("clean_command") or prop.get("default_values"), parameter["name"])
+        self.assertLess({"SetOverlap", "SetMaskThreshold", "SetResampleMasks"},
+                        {p.get("command") for p in elements("MasksToSegmentation")})
 
     def test_ranges(self):
         checked = 0
@@ -85,11 +95,10 @@ class ParaView(unittest.TestCase):
 class Setters(unittest.TestCase):
     def test_every_parameter_reaches_its_property(self):
         """The compiler finds out whether the filter has the method."""
-        dimensions = {"Filter": 0, "Tets": 3, "Pentatopes": 4, "Repair": 0}
         text = subprocess.run([os.environ["VOXPLEX_PARAMETERS"], "setters"], check=True, capture_output=True, text=True).stdout
-        found = re.findall(r'\{ "([\w-]+)", To\(&(\w+)::Set(\w+)\) \}', text)
-        self.assertEqual({name: (prop, dimensions[kind]) for name, kind, prop in found},
-                         {p["name"]: (p["property"], p["dimension"]) for p in BY_PROPERTY.values()})
+        found = re.findall(r'\{ "([\w-]+)", To\(&(\w+)::(?:Set|Add)(\w+)\) \}', text)
+        wanted = {p["name"]: (p["property"], "Reader" if p["kind"] == "times" else p["class"]) for p in TABLE if p["kind"] != "image"}
+        self.assertEqual({name: (prop, kind) for name, kind, prop in found}, wanted)
 
 
 class Documentation(unittest.TestCase):

@@ -10,7 +10,7 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk
 
 import voxplex
-from voxplex import vtkImageToPentatopeMeshFilter, vtkImageToTetMeshFilter
+from voxplex import vtkImageToPentatopeMeshFilter, vtkImageToTetMeshFilter, vtkSegmentationReader
 
 from table import BY_PROPERTY, default_of, make_filter
 
@@ -28,8 +28,9 @@ def message_about(parameter, value, force):
     image = voxplex.Image(labels).to_vtk()
     if parameter["dimension"] == 4:  # the components are frames
         image.GetPointData().SetScalars(numpy_to_vtk(numpy.repeat(labels.reshape(-1, 1), 2, axis=1), deep=True))
-    mesher.SetInputData(image)
-    if not parameter["of_repair"]:
+    if parameter["class"] != "Reader":
+        mesher.SetInputData(image)
+    if parameter["class"] not in ("Reader", "Repair"):
         mesher.SetForce(force)
     if parameter["property"] in ("Isovalue", "InsideLabel", "IsosurfaceSmoothingSigma"):
         mesher.SetInputModeToIsosurface()
@@ -37,6 +38,8 @@ def message_about(parameter, value, force):
     getattr(mesher, "Set" + parameter["property"])(int(value) if parameter["kind"] == "whole" else value)
     if str(float(getattr(mesher, "Get" + parameter["property"])())) != str(float(value)):
         return parameter["property"] + " was clamped"
+    if parameter["class"] == "Reader":
+        return None
     mesher.AddObserver("ProgressEvent", lambda caller, event: caller.SetAbortExecute(caller.GetProgress() > 0.3))
     mesher.AddObserver("ErrorEvent", lambda caller, event: None)
     mesher.GetExecutive().AddObserver("ErrorEvent", lambda caller, event: None)
@@ -75,7 +78,7 @@ class Filters(unittest.TestCase):
                     self.assertTrue(is_accepted(parameter, high, True))
 
     def test_not_finite(self):
-        for parameter in (p for p in BY_PROPERTY.values() if p["kind"] == "real"):
+        for parameter in (p for p in BY_PROPERTY.values() if p["kind"] == "real" and p["class"] != "Reader"):
             for value in (math.nan, math.inf, -math.inf):
                 with self.subTest(parameter["name"], value=value):
                     about = "isovalue|smoothing of grey values" if "Iso" in parameter["property"] else parameter["property"]
@@ -113,13 +116,14 @@ class Filters(unittest.TestCase):
                 self.assertTrue(is_accepted(parameter, beyond, True))
 
     def test_words(self):
-        tets, pentatopes = vtkImageToTetMeshFilter, vtkImageToPentatopeMeshFilter
-        places = {"Inside": (tets.INSIDE_ABOVE, tets.INSIDE_BELOW), "Grading": (tets.UNIFORM, tets.LOCAL_FEATURE_SIZE),
+        tets, pentatopes, reader = vtkImageToTetMeshFilter, vtkImageToPentatopeMeshFilter, vtkSegmentationReader
+        places = {"Overlap": (reader.OVERLAP_SMALLEST, reader.OVERLAP_ORDER),
+                  "Space": (reader.SPACE_LPS, reader.SPACE_RAS), "Inside": (tets.INSIDE_ABOVE, tets.INSIDE_BELOW), "Grading": (tets.UNIFORM, tets.LOCAL_FEATURE_SIZE),
                   "RuleOrder": (pentatopes.RADIUS_EDGE_FIRST, pentatopes.SURFACE_FIRST),
                   "ContentionManager": (tets.CONTENTION_AGGRESSIVE, tets.CONTENTION_RANDOM, tets.CONTENTION_GLOBAL,
                                         tets.CONTENTION_LOCAL),
                   "LoadBalancer": (tets.RANDOM_WORK_STEALING, tets.HIERARCHICAL_WORK_STEALING)}
-        words = {"Inside": ["above", "below"], "Grading": ["uniform", "lfs"], "RuleOrder": ["radius-edge", "surface"],
+        words = {"Overlap": ["smallest", "order"], "Space": ["lps", "ras"], "Inside": ["above", "below"], "Grading": ["uniform", "lfs"], "RuleOrder": ["radius-edge", "surface"],
                  "ContentionManager": ["aggressive", "random", "global", "local"], "LoadBalancer": ["rws", "hws"]}
         self.assertEqual({p["property"]: p["words"] for p in BY_PROPERTY.values() if p["words"]}, words)
         for name, values in places.items():

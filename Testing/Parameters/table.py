@@ -6,18 +6,20 @@ import os
 import subprocess
 from pathlib import Path
 
-from voxplex import vtkImageToPentatopeMeshFilter, vtkImageToTetMeshFilter, vtkSegmentationRepair
+from voxplex import vtkImageToPentatopeMeshFilter, vtkImageToTetMeshFilter, vtkSegmentationReader, vtkSegmentationRepair
 
 SOURCE = Path(os.environ["VOXPLEX_SOURCE"])
-LISTS = ("labels", "label-sizes", "interface-sizes", "image", "times")
+LISTS = ("text", "file", "numbers", "labels", "label-sizes", "interface-sizes", "image", "times")
 TABLE = json.loads(subprocess.run([os.environ["VOXPLEX_PARAMETERS"]], check=True, capture_output=True, text=True).stdout)
 BY_PROPERTY = {p["property"]: p for p in TABLE if p["kind"] not in LISTS}
 
 
+CLASSES = {"Reader": vtkSegmentationReader, "Repair": vtkSegmentationRepair, "Pentatopes": vtkImageToPentatopeMeshFilter,
+           "Tets": vtkImageToTetMeshFilter, "Filter": vtkImageToTetMeshFilter}
+
+
 def make_filter(parameter):
-    if parameter.get("of_repair"):
-        return vtkSegmentationRepair()
-    return vtkImageToPentatopeMeshFilter() if parameter["dimension"] == 4 else vtkImageToTetMeshFilter()
+    return CLASSES[parameter["class"]]()
 
 
 def default_of(parameter):
