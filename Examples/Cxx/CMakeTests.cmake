@@ -49,5 +49,5 @@ endif ()
 add_test(NAME Examples.Cxx.Run
   COMMAND "${Python3_EXECUTABLE}" -B "${CMAKE_SOURCE_DIR}/Testing/Packaging/TestExamples.py" -v)
 set_tests_properties(Examples.Cxx.Run PROPERTIES
-  ENVIRONMENT "VOXPLEX_EXAMPLES=${CMAKE_CURRENT_BINARY_DIR}/Cxx/InstallTree"
+  ENVIRONMENT "PYTHONPATH=${CMAKE_SOURCE_DIR}/Testing/Support;VOXPLEX_EXAMPLES=${CMAKE_CURRENT_BINARY_DIR}/Cxx/InstallTree"
   FIXTURES_REQUIRED VoxplexExamples TIMEOUT 600 LABELS Examples)

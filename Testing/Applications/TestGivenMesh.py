@@ -13,8 +13,7 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_ID_TYPE, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
-from vtkmodules.vtkIOXML import (vtkXMLPolyDataReader, vtkXMLPolyDataWriter, vtkXMLUnstructuredGridReader,
-                                 vtkXMLUnstructuredGridWriter)
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
 import images
 import meshfiles
@@ -53,10 +52,7 @@ class MeshTestCase(ProgramTestCase):
         self.assertEqual((self.folder / first).read_bytes(), (self.folder / second).read_bytes(), second)
 
     def load(self, name):
-        reader = vtkXMLPolyDataReader() if name.endswith(".vtp") else vtkXMLUnstructuredGridReader()
-        reader.SetFileName(str(self.folder / name))
-        reader.Update()
-        return reader.GetOutput()
+        return meshfiles.read_data(self.folder / name)
 
     def save(self, grid, name, **settings):
         writer = vtkXMLPolyDataWriter() if isinstance(grid, vtkPolyData) else vtkXMLUnstructuredGridWriter()

@@ -8,7 +8,6 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
 import images
 import meshfiles
@@ -19,11 +18,8 @@ AAL = Path("/usr/share/mricron/templates/aal.nii.gz")
 
 def names_of(path):
     """{label: name} of the field data of a .vtu or .vtp file."""
-    reader = vtkXMLUnstructuredGridReader() if path.suffix == ".vtu" else vtkXMLPolyDataReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    values = reader.GetOutput().GetFieldData().GetArray("LabelValues")
-    names = meshfiles.texts_of(reader.GetOutput(), "LabelNames")
+    data = meshfiles.read_data(path)
+    values, names = data.GetFieldData().GetArray("LabelValues"), meshfiles.texts_of(data, "LabelNames")
     return {values.GetValue(i): names[i] for i in range(values.GetNumberOfValues())} if values else {}
 
 

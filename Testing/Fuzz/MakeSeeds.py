@@ -14,7 +14,7 @@ import numpy as np
 import pydicom
 from pydicom.dataset import Dataset, FileMetaDataset
 
-sys.path.insert(0, str(Path(__file__).parent.parent / "Applications"))
+sys.path.insert(0, str(Path(__file__).parent.parent / "Support"))
 import images
 
 LABELS = images.ball(4, 1.5, label=3)

@@ -11,7 +11,6 @@ import math
 import os
 import re
 import sys
-import tempfile
 import unittest
 from collections import Counter
 from pathlib import Path
@@ -19,6 +18,7 @@ from pathlib import Path
 import numpy as np
 from vtkmodules.vtkCommonCore import vtkVersion
 
+from folders import FolderTestCase
 from matrix import SOUND
 from matrix.damage import claimed_sizes, damaged
 from matrix.reading import Host
@@ -34,13 +34,9 @@ ABORTS = (vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion()) >= (
 HOSTILE = Path(__file__).resolve().parents[2] / "../shared/data/hostile"
 
 
-class DamagedFiles(unittest.TestCase):
-    maxDiff = None
-
+class DamagedFiles(FolderTestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="voxplex-test-")
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        super().setUp()
         self.host = Host(TIMEOUT)
         self.addCleanup(self.host.stop)
         self.memory_before = self.host.read(SOUND[0].files.write(self.folder / "sound")).resident

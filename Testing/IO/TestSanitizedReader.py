@@ -10,14 +10,14 @@ The program runs alone, without the process that it reads for. What it answers i
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 TESTING = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(TESTING / "Applications"), str(TESTING / "Fuzz")]
+sys.path[:0] = [str(TESTING / "Support"), str(TESTING / "Fuzz")]
 import MakeSeeds
+from folders import FolderTestCase
 from matrix import ROWS, SOUND
 from matrix.damage import damaged
 from matrix.rows import Files, Sound
@@ -52,14 +52,7 @@ def found(path):
     return None
 
 
-class SanitizedReader(unittest.TestCase):
-    maxDiff = None
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="voxplex-test-")
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
+class SanitizedReader(FolderTestCase):
     def check(self, paths):
         """paths: {name: path}"""
         with ThreadPoolExecutor(os.cpu_count()) as pool:

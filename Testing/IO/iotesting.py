@@ -2,26 +2,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of the IO module share."""
 import math
-import tempfile
-import unittest
-from pathlib import Path
 
 from vtkmodules.util.vtkConstants import VTK_DOUBLE
 from vtkmodules.vtkCommonCore import vtkObject
 
+import folders
 import meshfiles
 import voxplex
 
 
-class FolderTestCase(unittest.TestCase):
-    """Each test runs with an empty folder of its own. Errors are looked at through GetErrorMessage()."""
-
-    maxDiff = None
+class FolderTestCase(folders.FolderTestCase):
+    """Errors are looked at through GetErrorMessage()."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="voxplex-test-")
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        super().setUp()
         vtkObject.GlobalWarningDisplayOff()
 
     def reader(self, path, **properties):

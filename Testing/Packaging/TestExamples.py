@@ -5,14 +5,14 @@
 
 import os
 import subprocess
-import tempfile
 import unittest
 from pathlib import Path
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOLegacy import vtkUnstructuredGridReader
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+import images
+from folders import FolderTestCase
+from meshfiles import read_tetrahedra
 
 FOLDER = Path(os.environ["VOXPLEX_EXAMPLES"])
 
@@ -35,45 +35,20 @@ def grey_image():
     return image
 
 
-def write_meta_image(path, array, direction, origin):
-    """A MetaImage file: each row of TransformMatrix is the direction of one axis of the image."""
-    numbers = lambda values: " ".join(repr(float(value)) for value in numpy.asarray(values).reshape(-1))
-    kind = {numpy.dtype(numpy.int16): "MET_SHORT", numpy.dtype(numpy.uint8): "MET_UCHAR"}[array.dtype]
-    header = (f"ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
-              f"TransformMatrix = {numbers(numpy.asarray(direction).T)}\nOffset = {numbers(origin)}\n"
-              f"ElementSpacing = {numbers(SPACING)}\nDimSize = {' '.join(map(str, array.shape[::-1]))}\n"
-              f"ElementType = {kind}\nElementDataFile = LOCAL\n")
-    path.write_bytes(header.encode() + array.astype(array.dtype.newbyteorder("<")).tobytes())
+def write_image(path, array, direction, origin):
+    images.write_metaimage(path, array, images.Geometry(origin, SPACING, direction))
 
 
-def read(path):
-    reader = vtkXMLUnstructuredGridReader() if path.suffix == ".vtu" else vtkUnstructuredGridReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    grid = reader.GetOutput()
-    points = vtk_to_numpy(grid.GetPoints().GetData())
-    cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
-    return points, cells, vtk_to_numpy(grid.GetCellData().GetArray("Label"))
-
-
-def centroids(points, cells, labels):
+def centroids(mesh):
     """Of each label, weighted by volume; and the smallest volume of a cell."""
-    corners = points[cells]
-    a, b, c = (corners[:, n] - corners[:, 0] for n in (1, 2, 3))
-    volumes = numpy.einsum("ij,ij->i", numpy.cross(a, b), c) / 6.0
-    result = {}
-    for label in numpy.unique(labels):
-        chosen = labels == label
-        result[int(label)] = numpy.average(corners[chosen].mean(axis=1), axis=0, weights=volumes[chosen])
+    volumes, result = mesh.volumes(), {}
+    for label in numpy.unique(mesh.labels):
+        chosen = mesh.labels == label
+        result[int(label)] = numpy.average(mesh.points[mesh.cells[chosen]].mean(axis=1), axis=0, weights=volumes[chosen])
     return result, volumes.min()
 
 
-class Examples(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
+class Examples(FolderTestCase):
     def call(self, name, *arguments):
         return subprocess.run([str(FOLDER / name), *map(str, arguments)], capture_output=True, text=True, timeout=300,
                               check=False)
@@ -81,10 +56,10 @@ class Examples(unittest.TestCase):
     def test_ball(self):
         done = self.call("MeshBall", self.folder / "ball.vtu")
         self.assertEqual(done.returncode, 0, done.stderr)
-        points, cells, labels = read(self.folder / "ball.vtu")
-        self.assertRegex(done.stdout, f"^{len(cells)} tetrahedra")
-        self.assertEqual(set(labels), {1, 2})
-        centres, smallest = centroids(points, cells, labels)
+        mesh = read_tetrahedra(self.folder / "ball.vtu")
+        self.assertRegex(done.stdout, f"^{len(mesh.cells)} tetrahedra")
+        self.assertEqual(set(mesh.labels), {1, 2})
+        centres, smallest = centroids(mesh)
         numpy.testing.assert_allclose(centres[2], (19.5, 19.5, 19.0), atol=0.3)
         self.assertGreater(smallest, 0.0)
 
@@ -96,8 +71,8 @@ class Examples(unittest.TestCase):
     }
     ORIGIN = numpy.array([-40.0, 25.0, 310.0])
 
-    def check(self, points, cells, labels, direction, expected):
-        centres, smallest = centroids(points, cells, labels)
+    def check(self, path, direction, expected):
+        centres, smallest = centroids(read_tetrahedra(path))
         self.assertEqual(set(centres), set(expected))
         self.assertGreater(smallest, 0.0)
         for label, box in expected.items():
@@ -108,11 +83,11 @@ class Examples(unittest.TestCase):
     def test_itk_pipeline(self):
         for name, direction in self.DIRECTIONS.items():
             with self.subTest(name):
-                write_meta_image(self.folder / "ct.mha", grey_image(), direction, self.ORIGIN)
+                write_image(self.folder / "ct.mha", grey_image(), direction, self.ORIGIN)
                 done = self.call("MeshITKImage", self.folder / "ct.mha", 300, 2.0, self.folder / "bone.vtk")
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertRegex(done.stdout, "^2 components, [1-9][0-9]+ tetrahedra\n$")
-                self.check(*read(self.folder / "bone.vtk"), direction, {1: LARGE, 2: SMALL})
+                self.check(self.folder / "bone.vtk", direction, {1: LARGE, 2: SMALL})
 
     @unittest.skipUnless((FOLDER / "MeshITKImage").exists(), "Voxplex was built without ITK")
     def test_itk_pipeline_fails_with_a_message(self):
@@ -125,12 +100,12 @@ class Examples(unittest.TestCase):
     def test_file(self):
         direction = self.DIRECTIONS["oblique"]
         labels = numpy.where(grey_image() > 0, 4, 0).astype(numpy.uint8)
-        write_meta_image(self.folder / "labels.mha", labels, direction, self.ORIGIN)
+        write_image(self.folder / "labels.mha", labels, direction, self.ORIGIN)
         done = self.call("MeshFile", self.folder / "labels.mha", 2.0, self.folder / "mesh.vtu")
         self.assertEqual(done.returncode, 0, done.stderr)
-        points, cells, found = read(self.folder / "mesh.vtu")
-        self.assertEqual(set(found), {4})
-        self.assertEqual(done.stdout, f"{len(cells)} tetrahedra\n")
+        mesh = read_tetrahedra(self.folder / "mesh.vtu")
+        self.assertEqual(set(mesh.labels), {4})
+        self.assertEqual(done.stdout, f"{len(mesh.cells)} tetrahedra\n")
         missing = self.call("MeshFile", self.folder / "none.mha", 2.0, self.folder / "mesh2.vtu")
         self.assertEqual(missing.returncode, 1)
         self.assertFalse((self.folder / "mesh2.vtu").exists())

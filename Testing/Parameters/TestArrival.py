@@ -5,10 +5,8 @@
 one than without."""
 import os
 import subprocess
-import tempfile
 import types
 import unittest
-from pathlib import Path
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -16,7 +14,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 import images
 import meshfiles
 import voxplex
-
+from folders import FolderTestCase
 from table import TABLE, make_filter
 
 BY_PROPERTY = {p["property"]: p for p in TABLE}
@@ -95,12 +93,7 @@ def cells_of(mesh):
     return mesh_of(mesh).cells
 
 
-class Arrival(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
+class Arrival(FolderTestCase):
     def run_program(self, variable, *arguments):
         done = subprocess.run([os.environ[variable], *map(str, arguments)], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)

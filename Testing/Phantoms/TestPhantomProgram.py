@@ -4,10 +4,11 @@
 import math
 import os
 import subprocess
-import tempfile
 import unittest
 
 import numpy as np
+
+from folders import FolderTestCase
 
 PI = math.pi
 BALL = 4 / 3 * PI
@@ -26,11 +27,10 @@ PHANTOMS = (
 )
 
 
-class TestPhantomProgram(unittest.TestCase):
+class TestPhantomProgram(FolderTestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = os.path.join(folder.name, "phantom.nrrd")
+        super().setUp()
+        self.path = str(self.folder / "phantom.nrrd")
 
     def run_program(self, *arguments):
         return subprocess.run([os.environ["VOXPLEX_PHANTOM"], *arguments], capture_output=True, text=True, check=False)

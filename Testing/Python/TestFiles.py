@@ -14,7 +14,9 @@ import warnings
 from pathlib import Path
 
 import numpy
+import images
 import voxplex
+from folders import FolderTestCase
 from phantoms import beating, brick
 from voxplex.sources import image_of
 
@@ -28,25 +30,15 @@ SPACING = numpy.array([0.5, 1.0, 2.0])
 ORIGIN = numpy.array([10.0, -20.0, 30.0])
 
 
-def write_nrrd(path, array, fields=()):
-    """array: [k, j, i] or [t, k, j, i]; placed by the constants above."""
-    columns = [f"({','.join(repr(float(x)) for x in DIRECTION[:, axis] * SPACING[axis])})" for axis in range(3)]
-    kinds = ["domain"] * 3
-    if array.ndim == 4:
-        columns.append("none")
-        kinds.append("list")
-    header = ["NRRD0005", f"type: {array.dtype.name}", f"dimension: {array.ndim}", "space: left-posterior-superior",
-              f"sizes: {' '.join(map(str, array.shape[::-1]))}", f"space directions: {' '.join(columns)}",
-              f"kinds: {' '.join(kinds)}", "endian: little", "encoding: raw",
-              f"space origin: ({','.join(repr(float(x)) for x in ORIGIN)})", *fields]
-    path.write_bytes(("\n".join(header) + "\n\n").encode() + array.tobytes())
+def write_nrrd(path, array, keys=None, **fields):
+    """Placed by the constants above."""
+    images.write_nrrd(path, array, images.Geometry(ORIGIN, SPACING, DIRECTION), key_values=keys,
+                      header_lines={"encoding": "raw", **fields})
 
 
-class Files(unittest.TestCase):
+class Files(FolderTestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        super().setUp()
         self.labels = brick().astype(numpy.int16)
         self.image = self.folder / "labels.nrrd"
         write_nrrd(self.image, self.labels)
@@ -279,7 +271,7 @@ class Files(unittest.TestCase):
     def test_data_files_anywhere(self):
         (self.folder / "headers").mkdir()
         path = self.folder / "headers" / "labels.nhdr"
-        write_nrrd(path, self.labels, ["data file: ../labels.raw"])
+        write_nrrd(path, self.labels, **{"data file": "../labels.raw"})
         header, voxels = path.read_bytes().split(b"\n\n", 1)
         path.write_bytes(header + b"\n")
         (self.folder / "labels.raw").write_bytes(voxels)
@@ -464,9 +456,9 @@ class Files(unittest.TestCase):
     def test_names_of_the_file(self):
         """3D Slicer's segment metadata, and a table."""
         path = self.folder / "named.seg.nrrd"
-        write_nrrd(path, self.labels, [
-            "Segment0_ID:=Segment_1", "Segment0_LabelValue:=5", "Segment0_Layer:=0", "Segment0_Name:=liver",
-            "Segment1_ID:=Segment_2", "Segment1_LabelValue:=9", "Segment1_Layer:=0", "Segment1_Name:=spleen"])
+        write_nrrd(path, self.labels, {
+            "Segment0_ID": "Segment_1", "Segment0_LabelValue": 5, "Segment0_Layer": 0, "Segment0_Name": "liver",
+            "Segment1_ID": "Segment_2", "Segment1_LabelValue": 9, "Segment1_Layer": 0, "Segment1_Name": "spleen"})
         self.assertEqual(voxplex.read_segmentation(path).names, {5: "liver", 9: "spleen"})
         mesh = voxplex.mesh(path, 1.5, labels=["spleen"])
         self.assertEqual((set(mesh.labels), mesh.names, mesh.interfaces.names), ({9}, {9: "spleen"}, {9: "spleen"}))
@@ -530,7 +522,6 @@ class Files(unittest.TestCase):
         values = numpy.zeros(self.labels.shape, dtype=numpy.float32)
         values[:, :, 10:] = 0.8
         write_nrrd(sizes, values)
-        sizes.write_bytes(sizes.read_bytes().replace(b"float32", b"float"))
         finer = voxplex.mesh(image, 2.0, size_image=sizes, threads=1)
         self.assertGreater(len(finer.cells), 1.5 * len(mesh.cells))
         expected = voxplex.mesh(image, 2.0, size_image=voxplex.read_segmentation(sizes, space="RAS"), threads=1)

@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 from xml.etree import ElementTree
 
-import images  # noqa: F401 (of Testing/Applications, for the tests)
+import images  # noqa: F401 (of Testing/Support, for the tests)
 
 EXECUTABLE = os.environ["VOXPLEX_SLICER_CLI"]
 MODULE = Path(__file__).resolve().parents[3] / "Plugins" / "Slicer" / "VoxplexMesher"

@@ -6,9 +6,9 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
+
+from folders import FolderTestCase
 
 PROGRAM = os.environ.get("VOXPLEX_PROGRAM", "voxplex")
 VERBS = ("mesh", "measure", "convert", "image")
@@ -22,15 +22,8 @@ def without_topology(text):
                   "Volumes are off by|of all labels together)[^\n]*\n", "", text)
 
 
-class ProgramTestCase(unittest.TestCase):
-    """Each test runs in an empty folder of its own, which is removed afterwards."""
-
-    maxDiff = None
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="voxplex-test-")
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+class ProgramTestCase(FolderTestCase):
+    """The program runs in the test's folder."""
 
     def call(self, *arguments, timeout=300, **options):
         return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, text=True, stdin=subprocess.DEVNULL,

@@ -126,6 +126,12 @@ def _points(data):
     return vtk_to_numpy(data.GetPoints().GetData()).astype(float)
 
 
+def read_data(path):
+    """What VTK's reader of .vtu, .vtp or, of grids, .vtk makes of a file."""
+    readers = {".vtu": vtkXMLUnstructuredGridReader, ".vtp": vtkXMLPolyDataReader, ".vtk": vtkUnstructuredGridReader}
+    return _read(readers[Path(path).suffix](), path)
+
+
 def _read(reader, path):
     reader.SetFileName(str(path))
     reader.Update()
@@ -134,10 +140,8 @@ def _read(reader, path):
 
 def read_tetrahedra(path):
     path = str(path)
-    if path.endswith(".vtu"):
-        return _from_grid(_read(vtkXMLUnstructuredGridReader(), path))
-    if path.endswith(".vtk"):
-        return _from_grid(_read(vtkUnstructuredGridReader(), path))
+    if path.endswith((".vtu", ".vtk")):
+        return _from_grid(read_data(path))
     if path.endswith(".mesh"):
         return _read_medit(path)
     if path.endswith(".inp"):
@@ -150,7 +154,7 @@ def read_tetrahedra(path):
 def read_pentatopes(path):
     path = str(path)
     if path.endswith(".vtu"):
-        return _pentatopes_from_grid(_read(vtkXMLUnstructuredGridReader(), path))
+        return _pentatopes_from_grid(read_data(path))
     if path.endswith(".mfem"):
         return _read_space_time_mfem(path)
     if path.endswith(".mesh"):
@@ -182,7 +186,7 @@ def _pentatopes_from_grid(grid):
 
 
 def read_boundary(path):
-    grid = _read(vtkXMLUnstructuredGridReader(), path)
+    grid = read_data(path)
     _require_type(grid, 10)
     cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
     return Boundary(_points_of_space_time(grid), cells, vtk_to_numpy(grid.GetCellData().GetArray("Labels")),
@@ -202,7 +206,7 @@ def _surface_names(grid):
 
 
 def read_slice(path):
-    grid = _read(vtkXMLUnstructuredGridReader(), path)
+    grid = read_data(path)
     _require_type(grid, 10)
     cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
     labels = grid.GetCellData().GetArray("Label")
@@ -448,7 +452,7 @@ def _read_abaqus(path):
 def read_triangles(path):
     path = str(path)
     if path.endswith(".vtp"):
-        return _from_polydata(_read(vtkXMLPolyDataReader(), path))
+        return _from_polydata(read_data(path))
     if path.endswith(".vtk"):
         return _from_polydata(_read(vtkPolyDataReader(), path))
     if path.endswith(".ply"):
