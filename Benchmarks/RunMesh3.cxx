@@ -5,7 +5,7 @@
  * @brief voxplexRunMesh3: meshes a label image with CGAL Mesh_3, without and with perturbation and
  * exudation.
  *
- * Scripts/measure-quality compares with these meshes. Coordinates are indices times spacing. GPL
+ * Benchmarks/measure-quality compares with these meshes. Coordinates are indices times spacing. GPL
  * because of CGAL: never installed.
  */
 #include "CommandLine.h"

@@ -278,7 +278,7 @@ double WorstError(const std::vector<Compared>& all)
 }
 
 /**
- * A row of Scripts/measure-space-time's table. Frames that CompareFrames() leaves out do not count.
+ * A row of Benchmarks/measure-space-time's table. Frames that CompareFrames() leaves out do not count.
  */
 void PrintRow(const SpaceTimeOptions& options, double delta, const SpaceTimeRecord& record)
 {

@@ -34,7 +34,7 @@ thread (tables 4.2 and 4.3 of the thesis), and of several. Every run is a proces
   --threads LIST     also run with these numbers of threads, e.g. 2,4 (default: 1 only)
   --repeat K         rounds (default 3); medians are printed
   --frames           also compare volumes with the image, frame by frame
-  --row              print one row of Scripts/measure-space-time's table instead
+  --row              print one row of Benchmarks/measure-space-time's table instead
 )";
 
 namespace

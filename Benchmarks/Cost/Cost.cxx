@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
 // Does one fixed piece of work with one thread, so that a tool can count its instructions
-// (Scripts/measure-cost). Without an argument it lists the pieces.
+// (Benchmarks/measure-cost). Without an argument it lists the pieces.
 #include "Domain/ImageDomain.h"
 #include "Domain/LabelField.h"
 #include "Image/FeatureTransform.h"

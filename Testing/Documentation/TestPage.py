@@ -4,7 +4,7 @@
 """Runs what a page of Documentation/ tells its readers to run: TestPage.py PAGE.md
 
 In one empty folder, in order: blocks of `sh` by bash, blocks of `python` in one interpreter, one namespace. A block of
-`text` is the output of the block before it and is not compared (Scripts/refresh-output writes it). A block after a line
+`text` is the output of the block before it and is not compared (Benchmarks/Figures/refresh-output writes it). A block after a line
 `<!-- file: NAME -->` is written to that file; one after `<!-- not run: REASON -->` is left out, and so is one after
 `<!-- needs: NAMES -->` if one of these programs or Python modules is not there; one of `sh` after `<!-- fails: REASON -->`
 must end with an error.

@@ -67,7 +67,7 @@ class Credit(unittest.TestCase):
         """Each source file begins with its copyright and licence. VTK 9.1 refuses fields for them in vtk.module."""
         names = subprocess.run(["git", "-C", SOURCE, "ls-files"], capture_output=True, text=True, check=True).stdout
         sources = [name for name in names.splitlines() if re.search(
-            r"^Scripts/|\.(cxx|h|hxx|txx|c|py|pyi|cmake|sh)(\.in)?$|(^|/)(CMakeLists\.txt|vtk\.module)$", name)]
+            r"^(Scripts|Benchmarks)/(\w+/)*[\w-]+$|\.(cxx|h|hxx|txx|c|py|pyi|cmake|sh)(\.in)?$|(^|/)(CMakeLists\.txt|vtk\.module)$", name)]
         self.assertGreater(len(sources), 900)
         tags = rf"SPDX-FileCopyrightText: Copyright \(c\) {AUTHORS}\n\W*SPDX-License-Identifier: {LICENCE}\n"
         without = [name for name in sources if (SOURCE / name).is_file()

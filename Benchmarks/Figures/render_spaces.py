@@ -6,7 +6,7 @@
 usage: render_spaces.py MESH.vtu PICTURE.png
 
 The mesh, in LPS, is that of Examples/Python/mesh_masks.py. Needs a display; without one: xvfb-run --auto-servernum
-Scripts/render_spaces.py ...
+Benchmarks/Figures/render_spaces.py ...
 """
 import sys
 

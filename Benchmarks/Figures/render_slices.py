@@ -6,7 +6,7 @@
 usage: render_slices.py SLICES.pvd PICTURE.png [NUMBER]
 
 Takes NUMBER slices (default 8), evenly spaced from the first to the last of the collection.
-Needs a display; without one: xvfb-run --auto-servernum Scripts/render_slices.py ...
+Needs a display; without one: xvfb-run --auto-servernum Benchmarks/Figures/render_slices.py ...
 """
 import os
 import sys

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Histograms of several meshes as pictures, for Scripts/measure-quality. Needs python3-matplotlib."""
+"""Histograms of several meshes as pictures, for Benchmarks/measure-quality. Needs python3-matplotlib."""
 import matplotlib
 
 matplotlib.use("Agg")

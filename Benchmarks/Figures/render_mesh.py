@@ -5,7 +5,7 @@
 
 usage: render_mesh.py MESH.vtu INTERFACES.vtp PICTURE.png
 
-Needs a display; without one: xvfb-run --auto-servernum Scripts/render_mesh.py ...
+Needs a display; without one: xvfb-run --auto-servernum Benchmarks/Figures/render_mesh.py ...
 """
 import colorsys
 import sys

@@ -5,7 +5,7 @@
 
 usage: render_segments.py LABELS.nii.gz MESH.vtu PICTURE.png
 
-Draws the labels that the mesh has. Needs a display; without one: xvfb-run --auto-servernum Scripts/render_segments.py ...
+Draws the labels that the mesh has. Needs a display; without one: xvfb-run --auto-servernum Benchmarks/Figures/render_segments.py ...
 """
 import sys
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Documentation/Quality.md from what Scripts/measure-quality measured."""
+"""Documentation/Quality.md from what Benchmarks/measure-quality measured."""
 import math
 import statistics
 
@@ -199,7 +199,7 @@ def _log_ratio(a, b):
 INTRODUCTION = """\
 # Quality of the meshes
 
-`Scripts/measure-quality` makes this page; `build/quality/log.txt` has its commands. Figures are those of
+`Benchmarks/measure-quality` makes this page; `build/quality/log.txt` has its commands. Figures are those of
 `voxplex.quality()` ([Reference.md](Reference.md#quality)). All runs have one thread. Times are medians of {repeat} runs, and
 rates of {pairs} pairs of runs, which took turns. Compare them only with each other. Machine: {machine}.
 
