@@ -1,6 +1,7 @@
 #!/bin/bash -eu
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
+# Never run: OSS-Fuzz was not at hand.
 # Builds all fuzzers into $OUT, each with the files that it starts from. OSS-Fuzz sets CC, CXX, CXXFLAGS and
 # LIB_FUZZING_ENGINE; the preset's own flags are the same sanitizers.
 cd "$SRC/voxplex"

@@ -52,10 +52,10 @@ if (VOXPLEX_DPKG_SHLIBDEPS)
   string(STRIP "${_voxplex_license}" _voxplex_license)
   string(REGEX REPLACE "\n\n" "\n.\n" _voxplex_license "${_voxplex_license}")
   string(REGEX REPLACE "\n" "\n " _voxplex_license "${_voxplex_license}")
-  configure_file(CMake/debian/copyright.in "${_voxplex_debian}/copyright" @ONLY)
-  configure_file(CMake/debian/shlibs.in "${_voxplex_debian}/shlibs" @ONLY)
+  configure_file(Packaging/debian/copyright.in "${_voxplex_debian}/copyright" @ONLY)
+  configure_file(Packaging/debian/shlibs.in "${_voxplex_debian}/shlibs" @ONLY)
   file(TIMESTAMP CHANGELOG.md _voxplex_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
-  configure_file(CMake/debian/changelog.in "${_voxplex_debian}/changelog" @ONLY)
+  configure_file(Packaging/debian/changelog.in "${_voxplex_debian}/changelog" @ONLY)
   execute_process(
     COMMAND gzip -9 -n -c "${_voxplex_debian}/changelog"
     OUTPUT_FILE "${_voxplex_debian}/changelog.gz"
@@ -65,7 +65,7 @@ if (VOXPLEX_DPKG_SHLIBDEPS)
     DESTINATION "${_voxplex_doc}"
     COMPONENT   documentation)
   install(
-    FILES       CMake/debian/lintian-overrides
+    FILES       Packaging/debian/lintian-overrides
     DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/lintian/overrides"
     RENAME      voxplex
     COMPONENT   documentation)
@@ -90,14 +90,14 @@ headers and CMake files.")
 set(CPACK_RESOURCE_FILE_LICENSE "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE")
 set(CPACK_PACKAGING_INSTALL_PREFIX "/usr")
 set(CPACK_STRIP_FILES ON)
-set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_SOURCE_DIR}/CMake/debian/before-packing.cmake")
+set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_SOURCE_DIR}/Packaging/debian/before-packing.cmake")
 
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION "science")
 set(CPACK_DEBIAN_PACKAGE_PRIORITY "optional")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
-  "${CMAKE_CURRENT_SOURCE_DIR}/CMake/debian/triggers" # has ldconfig run
+  "${CMAKE_CURRENT_SOURCE_DIR}/Packaging/debian/triggers" # has ldconfig run
   "${_voxplex_debian}/shlibs")
 if (VOXPLEX_HAVE_PYTHON)
   # The wrapped modules are for one version of Python.
@@ -106,7 +106,7 @@ if (VOXPLEX_HAVE_PYTHON)
     "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${_voxplex_next_python}), python3-numpy")
   set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-vtk9") # for the wrapped classes, not for functions
   list(APPEND CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA # byte code: made at installation, removed with the package
-    "${CMAKE_CURRENT_SOURCE_DIR}/CMake/debian/postinst" "${CMAKE_CURRENT_SOURCE_DIR}/CMake/debian/prerm")
+    "${CMAKE_CURRENT_SOURCE_DIR}/Packaging/debian/postinst" "${CMAKE_CURRENT_SOURCE_DIR}/Packaging/debian/prerm")
 endif ()
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libvtk9-dev, paraview")
 
