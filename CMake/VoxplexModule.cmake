@@ -3,7 +3,7 @@
 # Declares the module VTK::Voxplex. Read by the root CMakeLists.txt when VTK's build system enters it, and for the ParaView
 # plugin from a folder of the build.
 #
-# The objects of the kernel and of the table of parameters go into the module's library: nothing of them is
+# The objects of the kernel, of Segmentation/ and of the table of parameters go into the module's library: nothing of them is
 # installed, neither a library nor a header, and their symbols stay hidden.
 
 if (NOT COMMAND voxplex_skip) # the tests say through it what they leave out
@@ -18,7 +18,7 @@ set(voxplex_filters "${voxplex_root}/Filters")
 find_package(Threads REQUIRED)
 find_package(CGAL REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
-foreach (voxplex_part IN ITEMS Kernel Parameters)
+foreach (voxplex_part IN ITEMS Kernel Parameters Segmentation)
   if (NOT TARGET Voxplex${voxplex_part})
     add_subdirectory("${voxplex_root}/${voxplex_part}" ${voxplex_part})
   endif ()
@@ -61,14 +61,13 @@ vtk_module_add_module(VTK::Voxplex
     ${voxplex_filters}/Private/QualityRun.cxx
     ${voxplex_filters}/Private/QualityTables.cxx
     ${voxplex_filters}/Private/SmpThreads.cxx
-    ${voxplex_root}/Segmentation/ImageVoxels.cxx
-    ${voxplex_root}/Segmentation/LabelTable.cxx
     ${voxplex_root}/Segmentation/SegmentationChecks.cxx
     ${voxplex_root}/Segmentation/SegmentationRepair.cxx
     ${voxplex_root}/Segmentation/ThinRidges.cxx
     $<TARGET_OBJECTS:VoxplexExact>
     $<FILTER:$<TARGET_OBJECTS:VoxplexKernel>,EXCLUDE,[.]gch$> # a precompiled header is no object
-    $<TARGET_OBJECTS:VoxplexParameters>)
+    $<TARGET_OBJECTS:VoxplexParameters>
+    $<TARGET_OBJECTS:VoxplexSegmentation>)
 
 vtk_module_include(VTK::Voxplex
   PUBLIC

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkImageToSimplexMeshFilter.h"
 
+#include "ImageVoxels.h"
 #include "LabelTable.h"
 #include "MeshingParameters.h"
 #include "Private/Execution.h"

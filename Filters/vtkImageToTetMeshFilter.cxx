@@ -3,6 +3,7 @@
 #include "vtkImageToTetMeshFilter.h"
 
 #include "Image/IsosurfaceImage.h"
+#include "ImageVoxels.h"
 #include "Private/MeshOutput.h"
 #include "Private/SimplexMeshRun.h"
 

@@ -173,7 +173,10 @@ std::optional<ImageAnswer> ReadMasks(const std::vector<std::string>& paths,
       return std::nullopt;
     }
   }
-  ImageAnswer all = masks.Finish(request.Rule, warnings.Lines());
+  ImageAnswer all;
+  all.Warnings = warnings.Lines();
+  all.Image = masks.Finish(request.Rule, all.Warnings);
+  all.Labels = masks.GetLabels();
   all.SpacingGuesses = guesses.Lines();
   all.Files = std::move(files);
   return all;

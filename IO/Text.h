@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Text.h
- * @brief Words and numbers in the texts of files, and what messages quote of them. No locale changes the results.
+ * @brief Words and numbers in the texts of files. No locale changes the results.
  */
 #ifndef voxplex_io_Text_h
 #define voxplex_io_Text_h
+
+#include "ShownText.h"
 
 #include <charconv>
 #include <cstddef>
@@ -14,40 +16,8 @@
 #include <string_view>
 #include <vector>
 
-namespace voxplex
-{
-struct LabelTable;
-}
-
 namespace voxplex::io
 {
-
-/**
- * A text from a stranger's file, fit to be shown: at most `longest` bytes. Question marks stand for
- * control characters, which terminals obey, and for bytes that are not UTF-8.
- */
-std::string Excerpt(std::string_view text, std::size_t longest = 80);
-
-/** A character of UTF-8. */
-struct Character
-{
-  static constexpr char32_t None =
-    0xFFFFFFFF; ///< what is not well-formed, an overlong form or a surrogate
-  char32_t Code;
-  std::size_t Length; ///< in bytes
-};
-
-/** Of a text that is not empty. */
-Character FirstCharacter(std::string_view text);
-
-/** Whether a text is well-formed UTF-8, without overlong forms and surrogates. */
-bool IsUTF8(std::string_view text);
-
-/** Removes names that are not UTF-8, with a warning for each. */
-void LeaveOutOtherTexts(LabelTable& table, std::vector<std::string>& warnings);
-
-/** The first bytes of a text, at most `size`, without part of a character at the end. */
-std::string_view Cut(std::string_view text, std::size_t size);
 
 /** For text and for values between double quotation marks: `&amp;`, `&lt;`, `&gt;`, `&quot;`. */
 std::string EscapeForXML(std::string_view text);

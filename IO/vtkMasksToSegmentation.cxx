@@ -3,10 +3,9 @@
 #include "vtkMasksToSegmentation.h"
 
 #include "FileError.h"
-#include "ImageReading/Readers.h"
 #include "LabelTable.h"
 #include "MasksOnGrid.h"
-#include "Text.h"
+#include "ShownText.h"
 #include "VTKImage.h"
 
 #include "vtkAbstractArray.h"
@@ -31,6 +30,7 @@
 #include <memory>
 #include <new>
 
+using namespace voxplex;
 using namespace voxplex::io;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
@@ -151,20 +151,15 @@ std::string Shown(const std::vector<Mask>& masks, const Mask& mask)
                              : "'" + Excerpt(mask.Entry.Name) + "'");
 }
 
-/** What a reader of files says of the image, said of the mask. */
+/** Calls take(); what it says of the image is said of the mask. */
 template <typename TFunction>
-ScalarImage Take(TFunction&& take, const Mask& mask, const std::string& shown, Reading& reading)
+ScalarImage Take(const std::string& shown, TFunction&& take)
 {
-  reading.Allocate = [](std::size_t bytes)
-  {
-    const std::shared_ptr<std::byte[]> memory(new std::byte[bytes]);
-    return std::shared_ptr<void>(memory, memory.get());
-  };
   try
   {
-    return take(mask.Image, reading);
+    return take();
   }
-  catch (const FileError& error)
+  catch (const InputError& error)
   {
     Refuse(shown, ": ", error.what());
   }
@@ -174,28 +169,9 @@ void OfferGrids(MasksOnGrid& joined, const std::vector<Mask>& masks)
 {
   for (const Mask& mask : masks)
   {
-    Reading reading;
     const std::string shown = Shown(masks, mask);
-    joined.OfferGrid(Take(PlaceOfVTKImage, mask, shown, reading), shown);
+    joined.OfferGrid(Take(shown, [&mask] { return PlaceOfVTKImage(mask.Image); }), shown);
   }
-}
-
-ImageAnswer Join(const std::vector<Mask>& masks, bool resample, double threshold, Overlap rule)
-{
-  MasksOnGrid joined(resample, threshold);
-  OfferGrids(joined, masks);
-  std::vector<std::string> warnings;
-  for (const Mask& mask : masks)
-  {
-    Reading reading;
-    const std::string shown = Shown(masks, mask);
-    joined.Add(mask.Entry, Take(TakeVTKImage, mask, shown, reading), shown);
-    for (const std::string& warning : reading.Warnings)
-    {
-      warnings.push_back(shown + ": " + warning);
-    }
-  }
-  return joined.Finish(rule, std::move(warnings));
 }
 
 } // namespace
@@ -318,15 +294,30 @@ int vtkMasksToSegmentation::RequestData(
   try
   {
     const std::vector<Mask> masks = MasksOf(inputVector[0], this->MaskNames);
-    ImageAnswer answer = Join(masks, this->ResampleMasks, this->MaskThreshold,
-      this->Overlap == OVERLAP_ORDER ? Overlap::Order : Overlap::Smallest);
-    KeepLabelsOf(answer.Image, answer.Labels);
+    MasksOnGrid joined(this->ResampleMasks, this->MaskThreshold);
+    OfferGrids(joined, masks);
+    for (const Mask& mask : masks)
+    {
+      const std::string shown = Shown(masks, mask);
+      std::vector<std::string> warnings;
+      voxplex::LabelTable ignored; // FindNames() has taken what is wanted of it
+      joined.Add(mask.Entry,
+        Take(shown, [&] { return TakeVTKImage(mask.Image, AllocateVoxels, ignored, warnings); }),
+        shown);
+      for (const std::string& warning : warnings)
+      {
+        this->Warnings.push_back(shown + ": " + warning);
+      }
+    }
+    const ScalarImage image = joined.Finish(
+      this->Overlap == OVERLAP_ORDER ? Overlap::Order : Overlap::Smallest, this->Warnings);
+    voxplex::LabelTable labels = joined.GetLabels();
+    KeepLabelsOf(image, labels);
     vtkImageData* const output = vtkImageData::GetData(outputVector);
     const voxplex::Space space = voxplex::GetSpace(masks.front().Image->GetFieldData());
-    output->ShallowCopy(ToVTKImage(answer.Image, space));
+    output->ShallowCopy(ToVTKImage(image, space));
     voxplex::SetSpace(output->GetFieldData(), space);
-    voxplex::SetLabelTable(output->GetFieldData(), answer.Labels);
-    this->Warnings = std::move(answer.Warnings);
+    voxplex::SetLabelTable(output->GetFieldData(), labels);
   }
   catch (const std::bad_alloc&)
   {

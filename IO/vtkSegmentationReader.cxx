@@ -3,10 +3,10 @@
 #include "vtkSegmentationReader.h"
 
 #include "FileError.h"
-#include "ImageReading/Placement.h"
 #include "LabelTable.h"
 #include "LabelTableFile.h"
 #include "MaskFiles.h"
+#include "Placement.h"
 #include "VTKImage.h"
 
 #include "vtkDataObject.h"
@@ -24,6 +24,7 @@
 #include <iterator>
 #include <vector>
 
+using namespace voxplex;
 using namespace voxplex::io;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImageVoxels.h"
 
+#include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
 #include "vtkImageData.h"
@@ -103,6 +104,18 @@ std::vector<char> FindHiddenVoxels(vtkImageData* image, bool cells)
     hidden.push_back(isHidden ? 1 : 0);
   }
   return hidden;
+}
+
+vtkSmartPointer<vtkDataArray> Contiguous(vtkDataArray* array)
+{
+  if (array->HasStandardMemoryLayout() && array->GetDataType() != VTK_BIT)
+  {
+    return array;
+  }
+  const int type = array->GetDataType() == VTK_BIT ? VTK_UNSIGNED_CHAR : array->GetDataType();
+  auto copy = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+  copy->DeepCopy(array);
+  return copy;
 }
 
 } // namespace voxplex

@@ -16,10 +16,13 @@
 #ifndef voxplex_ImageVoxels_h
 #define voxplex_ImageVoxels_h
 
+#include <vtkSmartPointer.h>
+
 #include <array>
 #include <cstdint>
 #include <vector>
 
+class vtkDataArray;
 class vtkImageData;
 
 namespace voxplex
@@ -42,6 +45,9 @@ VoxelPlaces PlacesOf(vtkImageData* image, bool cells);
  * @throws std::length_error if an array vtkGhostType has not one value for each point or cell
  */
 std::vector<char> FindHiddenVoxels(vtkImageData* image, bool cells);
+
+/** The array itself if its values lie contiguously in memory in a type with a name, else a copy. */
+vtkSmartPointer<vtkDataArray> Contiguous(vtkDataArray* array);
 
 } // namespace voxplex
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelTable.h"
 
+#include "ShownText.h"
+
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -151,6 +153,23 @@ void SetLabelTable(vtkFieldData* fields, const LabelTable& table)
   {
     fields->AddArray(colors);
   }
+}
+
+void LeaveOutOtherTexts(LabelTable& table, std::vector<std::string>& warnings)
+{
+  std::erase_if(table.Entries,
+    [&warnings](const auto& row)
+    {
+      constexpr char escape = '\x1b'; // ISO 2022 changes the character set with it
+      const bool isText =
+        IsUTF8(row.second.Name) && row.second.Name.find(escape) == std::string::npos;
+      if (!isText)
+      {
+        warnings.push_back(
+          "the name of label " + std::to_string(row.first) + " is not in UTF-8, and is not used");
+      }
+      return !isText;
+    });
 }
 
 } // namespace voxplex

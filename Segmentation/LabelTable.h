@@ -56,6 +56,9 @@ LabelTable GetLabelTable(vtkFieldData* fields);
 /** Replaces the table in a data object's field data. An empty one leaves no arrays. */
 void SetLabelTable(vtkFieldData* fields, const LabelTable& table);
 
+/** Removes names that are not UTF-8, with a warning for each. */
+void LeaveOutOtherTexts(LabelTable& table, std::vector<std::string>& warnings);
+
 } // namespace voxplex
 
 #endif

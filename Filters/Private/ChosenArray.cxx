@@ -162,18 +162,6 @@ ChosenArray ChooseScalars(vtkImageData* image, vtkAbstractArray* chosen, int ass
   return Choose(image, chosen, association, content, what);
 }
 
-vtkSmartPointer<vtkDataArray> Contiguous(vtkDataArray* array)
-{
-  if (array->HasStandardMemoryLayout() && array->GetDataType() != VTK_BIT)
-  {
-    return array;
-  }
-  const int type = array->GetDataType() == VTK_BIT ? VTK_UNSIGNED_CHAR : array->GetDataType();
-  auto copy = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
-  copy->DeepCopy(array);
-  return copy;
-}
-
 LabelImage<3> ReadLabels(const ChosenArray& input, const LabelSelection& selection,
   unsigned threads, const std::stop_token& stop)
 {

@@ -61,9 +61,6 @@ ChosenArray Choose(vtkImageData* image, vtkAbstractArray* chosen, int associatio
 ChosenArray ChooseScalars(vtkImageData* image, vtkAbstractArray* chosen, int association,
   ImageContent content, const std::string& what, const std::string& advice);
 
-/** The array itself if its values lie contiguously in memory in a type with a name, else a copy. */
-vtkSmartPointer<vtkDataArray> Contiguous(vtkDataArray* array);
-
 /**
  * The label image of an array of one component, of any type that VTK has for numbers.
  * @param threads 0 means all cores

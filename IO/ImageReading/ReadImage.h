@@ -11,9 +11,6 @@
 #include "MaskUnion.h"
 #include "ScalarImage.h"
 
-#include <cstddef>
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -45,8 +42,6 @@ struct ImageAnswer
   std::vector<std::string>
     Files; ///< that were read, if they are others than those that were asked for
 };
-
-using VoxelAllocator = std::function<std::shared_ptr<void>(std::size_t bytes)>;
 
 /**
  * Reads an image here and now, for the reading process, in the scalar type that the file has. The first bytes of a file

@@ -110,11 +110,7 @@ ScalarImage ReadSlices(const std::vector<std::string>& files, Reading& reading)
   for (std::size_t k = 0; k < files.size(); ++k)
   {
     Reading of = reading; // whose memory is for one slice
-    of.Allocate = [](std::size_t bytes)
-    {
-      const std::shared_ptr<std::byte[]> memory(new std::byte[bytes]);
-      return std::shared_ptr<void>(memory, memory.get());
-    };
+    of.Allocate = AllocateVoxels;
     of.Warnings.clear();
     const ScalarImage slice = ReadSlice(files[k], of);
     const std::size_t bytes = slice.NumberOfVoxels() * SizeOf(slice.Type);

@@ -3,6 +3,7 @@
 #include "Readers.h"
 
 #include "VTKFileStructure.h"
+#include "VTKImage.h"
 #include "VTKMessages.h"
 
 #include <vtkImageData.h>
@@ -133,7 +134,7 @@ ScalarImage ReadVTK(const std::string& path, Reading& reading)
   {
     reading.Warnings.push_back(warning);
   }
-  return TakeVTKImage(image, reading);
+  return TakeVTKImage(image, reading.Allocate, reading.Labels, reading.Warnings);
 }
 
 } // namespace voxplex::io

@@ -17,13 +17,8 @@
 #include "MaskUnion.h"
 #include "ScalarImage.h"
 
-#include <cstddef>
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
-
-class vtkImageData;
 
 namespace voxplex::io
 {
@@ -31,8 +26,8 @@ namespace voxplex::io
 /** One image is read with each. */
 struct Reading
 {
-  /** Gives memory for so many bytes of voxels, in which nothing is set. */
-  std::function<std::shared_ptr<void>(std::size_t bytes)> Allocate;
+  /** Where voxels go. */
+  VoxelAllocator Allocate;
 
   /** Whether a header may name data files that are not in its folder or below. */
   bool DataFilesAnywhere = false;
@@ -162,19 +157,13 @@ ScalarImage ReadSlices(const std::vector<std::string>& files, Reading& reading);
 /**
  * VTK's own images: legacy .vtk with the dataset STRUCTURED_POINTS, and XML .vti, by VTK's readers.
  *
- * Labels are the array of numbers with one component, of the points or of the cells. Of several it is the active
- * scalars. A cell with a label is a voxel, so that the first voxel lies half a spacing from the origin. What
- * vtkGhostType hides is background. Field data SPACE tells whether coordinates are LPS or RAS; without it they are
- * taken as LPS. Names and colours of labels come from field data as LabelTable.h has them.
+ * TakeVTKImage() says what they mean.
  *
  * VTK has one window for the messages of all threads. While a file is read, those of this thread are collected, and
  * nothing of them is shown in it. vtkLogger prints them nevertheless, unless its verbosity is off.
  */
 bool IsVTK(const InputFile& file);
 ScalarImage ReadVTK(const std::string& path, Reading& reading);
-/** The same of an image in memory, and without its voxels. */
-ScalarImage TakeVTKImage(vtkImageData* image, Reading& reading);
-ScalarImage PlaceOfVTKImage(vtkImageData* image, Reading& reading);
 ///@}
 
 ///@{

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AnswerMessage.h"
 
-#include "ImageReading/Placement.h"
+#include "Placement.h"
 #include "Text.h"
 
 #include <nlohmann/json.hpp>

@@ -26,6 +26,7 @@
 namespace
 {
 
+using namespace voxplex;
 using namespace voxplex::io;
 
 constexpr int MemoryDescriptor = 3;

@@ -15,9 +15,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   {
     const voxplex::io::AnswerMessage message =
       voxplex::io::ParseAnswer({ reinterpret_cast<const char*>(data), size }, memory);
-    const voxplex::io::ScalarImage& image = message.Answer.Image;
+    const voxplex::ScalarImage& image = message.Answer.Image;
     const double bytes = static_cast<double>(image.NumberOfVoxels()) * image.Frames *
-      static_cast<double>(voxplex::io::SizeOf(image.Type));
+      static_cast<double>(voxplex::SizeOf(image.Type));
     if (message.Error.empty() &&
       !(bytes > 0 && static_cast<double>(message.Offset) + bytes <= memory))
     {

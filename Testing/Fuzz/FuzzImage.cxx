@@ -28,9 +28,9 @@ void WriteData()
 
 std::shared_ptr<void> Allocate(std::size_t bytes, std::byte content)
 {
-  const std::shared_ptr<std::byte[]> memory(new std::byte[bytes]);
+  const std::shared_ptr<void> memory = voxplex::AllocateVoxels(bytes);
   std::memset(memory.get(), static_cast<int>(content), bytes);
-  return { memory, memory.get() };
+  return memory;
 }
 
 /** Nothing if the file is refused. */
@@ -41,7 +41,7 @@ std::shared_ptr<void> Read(const std::string& path, std::byte content, std::size
     const voxplex::io::ImageAnswer answer = voxplex::io::ReadImageHere(
       { path, "", false }, [content](std::size_t size) { return Allocate(size, content); });
     bytes = answer.Image.NumberOfVoxels() * static_cast<std::size_t>(answer.Image.Frames) *
-      voxplex::io::SizeOf(answer.Image.Type);
+      voxplex::SizeOf(answer.Image.Type);
     if (bytes == 0)
     {
       fuzz::Fail("an image without voxels was read");

@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const voxplex::LabelTable table = voxplex::io::ReadLabelTableFile(path);
     for (const auto& [label, entry] : table.Entries)
     {
-      if (label <= 0 || entry.Name.empty() || !voxplex::io::IsUTF8(entry.Name))
+      if (label <= 0 || entry.Name.empty() || !voxplex::IsUTF8(entry.Name))
       {
         fuzz::Fail("label " + std::to_string(label) + " has the name '" + entry.Name + "'");
       }

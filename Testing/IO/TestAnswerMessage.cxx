@@ -10,6 +10,7 @@
 #include <iostream>
 #include <string>
 
+using namespace voxplex;
 using namespace voxplex::io;
 
 namespace

@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ScalarImage.h
- * @brief A 3D or 4D image as read from a file.
+ * @brief A 3D or 4D image as a file or a vtkImageData has it, without VTK.
  */
-#ifndef voxplex_io_ScalarImage_h
-#define voxplex_io_ScalarImage_h
+#ifndef voxplex_ScalarImage_h
+#define voxplex_ScalarImage_h
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -20,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace voxplex::io
+namespace voxplex
 {
 
 enum class ScalarType
@@ -153,6 +154,16 @@ struct ScalarImage
   }
 };
 
-} // namespace voxplex::io
+/** Gives memory for so many bytes of voxels, in which nothing is set. */
+using VoxelAllocator = std::function<std::shared_ptr<void>(std::size_t bytes)>;
+
+/** The heap's. */
+inline std::shared_ptr<void> AllocateVoxels(std::size_t bytes)
+{
+  const std::shared_ptr<std::byte[]> memory(new std::byte[bytes]);
+  return { memory, memory.get() };
+}
+
+} // namespace voxplex
 
 #endif

@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MaskUnion.h"
 
-#include "FileError.h"
-#include "Text.h"
+#include "Refuse.h"
+#include "ShownText.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace voxplex::io
+namespace voxplex
 {
 
-MaskUnion::MaskUnion(const ScalarImage& grid,
-  const std::function<std::shared_ptr<void>(std::size_t)>& allocate, std::string word)
+MaskUnion::MaskUnion(const ScalarImage& grid, const VoxelAllocator& allocate, std::string word)
   : Image(grid)
   , Word(std::move(word))
 {
@@ -258,4 +257,4 @@ ScalarImage MaskUnion::Finish(Overlap rule, std::vector<std::string>& warnings)
   return this->Image;
 }
 
-} // namespace voxplex::io
+} // namespace voxplex

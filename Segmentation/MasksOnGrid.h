@@ -4,18 +4,18 @@
  * @file MasksOnGrid.h
  * @brief Masks, each an image of its own, as one label image on one grid.
  */
-#ifndef voxplex_io_MasksOnGrid_h
-#define voxplex_io_MasksOnGrid_h
+#ifndef voxplex_MasksOnGrid_h
+#define voxplex_MasksOnGrid_h
 
-#include "ImageReading/MaskUnion.h"
-#include "ImageReading/ReadImage.h"
 #include "LabelTable.h"
+#include "MaskUnion.h"
+#include "ScalarImage.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace voxplex::io
+namespace voxplex
 {
 
 /**
@@ -41,7 +41,7 @@ public:
   /**
    * Of each mask before the first is added; or of none, if all have one grid.
    *
-   * @throws FileError for time frames, a single slice, another unit of length, and voxels between those of the grid,
+   * @throws InputError for time frames, a single slice, another unit of length, and voxels between those of the grid,
    * unless they are resampled
    */
   void OfferGrid(ScalarImage image, const std::string& shown);
@@ -51,22 +51,25 @@ public:
    * them is guessed to lie.
    *
    * @return whether its place is no guess any more
-   * @throws FileError if there is none of its size, or several at different places, and for another spacing
+   * @throws InputError if there is none of its size, or several at different places, and for another spacing
    */
   bool TakePlace(ScalarImage& image, const std::string& shown);
 
-  /** @throws FileError if masks that were offered begin at different places, so that one place does not tell theirs */
+  /** @throws InputError if masks that were offered begin at different places, so that one place does not tell theirs */
   void CheckOneOrigin() const;
 
   /**
    * @param entry its name may be empty: the label has none then
    * @return whether it was added: if no grid was offered, only masks on that of the first are
-   * @throws FileError as OfferGrid(), and for values of no mask
+   * @throws InputError as OfferGrid(), and for values of no mask
    */
   bool Add(const LabelTable::Entry& entry, ScalarImage image, const std::string& shown);
 
-  /** @param warnings those that there are; what is lost or overlaps is added, a line each */
-  ImageAnswer Finish(Overlap rule, std::vector<std::string> warnings);
+  /** @param warnings receives what is lost or overlaps, a line each */
+  ScalarImage Finish(Overlap rule, std::vector<std::string>& warnings);
+
+  /** Names and colours of the masks that have one. */
+  const LabelTable& GetLabels() const { return this->Labels; }
 
   /** Where the masks that were offered lie; without voxels. */
   ScalarImage FindGrid() const;
@@ -97,6 +100,6 @@ private:
   std::string Put;  ///< which were put where others lie
 };
 
-} // namespace voxplex::io
+} // namespace voxplex
 
 #endif

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Placement.h"
 
-#include "FileError.h"
-
-#include <vtkMatrix3x3.h>
+#include "Geometry/Determinants.h"
+#include "Refuse.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-namespace voxplex::io
+namespace voxplex
 {
 namespace
 {
@@ -47,8 +46,28 @@ void Place(ScalarImage& image, const std::array<Vector3, 3>& steps, const Vector
       image.Direction[3 * row + axis] = step[row] / length;
     }
   }
-  RefuseIf(std::abs(vtkMatrix3x3::Determinant(image.Direction.data())) < SmallestDeterminant,
+  RefuseIf(VolumeOfDirections(image) < SmallestDeterminant,
     "its axes are not independent, the direction matrix is singular: correct the header");
+}
+
+std::array<Vector3, 3> StepsOf(const ScalarImage& image)
+{
+  std::array<Vector3, 3> steps;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (std::size_t row = 0; row < 3; ++row)
+    {
+      steps[axis][row] = image.Direction[3 * row + axis] * image.Spacing[axis];
+    }
+  }
+  return steps;
+}
+
+double VolumeOfDirections(const ScalarImage& image)
+{
+  const auto& d = image.Direction;
+  return std::abs(Determinant(std::array<Vector3, 3>{
+    { { d[0], d[1], d[2] }, { d[3], d[4], d[5] }, { d[6], d[7], d[8] } } }));
 }
 
 void PlaceAlongAxes(ScalarImage& image, const Vector3& spacing, const Vector3& origin)
@@ -135,4 +154,4 @@ void SetFrameTimes(ScalarImage& image, const std::vector<double>& times)
   }
 }
 
-} // namespace voxplex::io
+} // namespace voxplex

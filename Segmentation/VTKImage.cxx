@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <unordered_map>
 
-namespace voxplex::io
+namespace voxplex
 {
 namespace
 {
@@ -100,4 +100,4 @@ void KeepLabelsOf(const ScalarImage& image, LabelTable& table)
   Dispatch(image.Type, [&](auto zero) { KeepSeen<decltype(zero)>(image, table); });
 }
 
-} // namespace voxplex::io
+} // namespace voxplex

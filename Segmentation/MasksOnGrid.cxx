@@ -2,25 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MasksOnGrid.h"
 
-#include "FileError.h"
-#include "Text.h"
-
-#include <vtkMatrix3x3.h>
-#include <vtkMatrix4x4.h>
-#include <vtkNew.h>
-#include <vtkSmartPointer.h>
+#include "Geometry/SimplexQuality.h"
+#include "Placement.h"
+#include "Refuse.h"
+#include "ShownText.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <memory>
 #include <sstream>
 
-namespace voxplex::io
+namespace voxplex
 {
 namespace
 {
@@ -32,37 +27,41 @@ constexpr double Tolerance = 0.01;
 constexpr double MostVoxels = 1 << 30;
 constexpr double MostTimes = 8;
 
-/** From indices to places. */
-void GetMatrix(const ScalarImage& image, vtkMatrix4x4* matrix)
+/** From indices of a grid to places, or to indices of another grid. */
+struct Affine
 {
-  matrix->Identity();
-  for (int row = 0; row < 3; ++row)
+  std::array<Vector3, 3> Steps{ { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }; ///< along each axis
+  Vector3 First{};
+
+  Vector3 At(double i, double j, double k) const
   {
-    for (int axis = 0; axis < 3; ++axis)
+    Vector3 at;
+    for (std::size_t row = 0; row < 3; ++row)
     {
-      const auto a = static_cast<std::size_t>(axis);
-      matrix->SetElement(
-        row, axis, image.Direction[3 * static_cast<std::size_t>(row) + a] * image.Spacing[a]);
+      at[row] = this->Steps[0][row] * i + this->Steps[1][row] * j + this->Steps[2][row] * k +
+        this->First[row];
     }
-    matrix->SetElement(row, 3, image.Origin[static_cast<std::size_t>(row)]);
+    return at;
   }
+  bool operator==(const Affine&) const = default;
+};
+
+Affine PlacesOf(const ScalarImage& image)
+{
+  return { StepsOf(image), image.Origin };
 }
 
 /** From the lowest to the highest coordinates of an image, further out by so many voxels. */
-std::array<std::array<double, 3>, 2> BoxOf(
-  const ScalarImage& image, vtkMatrix4x4* fromIndices, double further)
+std::array<Vector3, 2> BoxOf(const ScalarImage& image, const Affine& fromIndices, double further)
 {
-  std::array<std::array<double, 3>, 2> box;
+  std::array<Vector3, 2> box;
   box[0].fill(std::numeric_limits<double>::infinity());
   box[1].fill(-std::numeric_limits<double>::infinity());
   for (int corner = 0; corner < 8; ++corner)
   {
-    std::array<double, 4> at{ 0, 0, 0, 1 };
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      at[axis] = (corner >> axis & 1) != 0 ? image.Dimensions[axis] - 1 + further : -further;
-    }
-    fromIndices->MultiplyPoint(at.data(), at.data());
+    const auto end = [&](std::size_t axis)
+    { return (corner >> axis & 1) != 0 ? image.Dimensions[axis] - 1 + further : -further; };
+    const Vector3 at = fromIndices.At(end(0), end(1), end(2));
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       box[0][axis] = std::min(box[0][axis], at[axis]);
@@ -73,35 +72,42 @@ std::array<std::array<double, 3>, 2> BoxOf(
 }
 
 /** The translation that is nearest to one between indices. */
-vtkSmartPointer<vtkMatrix4x4> WholeSteps(vtkMatrix4x4* matrix)
+Affine WholeSteps(const Affine& map)
 {
-  const auto steps = vtkSmartPointer<vtkMatrix4x4>::New();
-  for (int row = 0; row < 3; ++row)
-  {
-    steps->SetElement(row, 3, std::round(matrix->GetElement(row, 3)));
-  }
+  Affine steps;
+  std::transform(map.First.begin(), map.First.end(), steps.First.begin(),
+    [](double step) { return std::round(step); });
   return steps;
 }
 
 /** From indices of a mask to those of a grid: whole steps, exactly, if they are on one lattice. */
-vtkSmartPointer<vtkMatrix4x4> MatrixBetween(const ScalarImage& mask, const ScalarImage& grid)
+Affine MapBetween(const ScalarImage& mask, const ScalarImage& grid)
 {
-  vtkNew<vtkMatrix4x4> places;
-  const auto matrix = vtkSmartPointer<vtkMatrix4x4>::New();
-  GetMatrix(mask, places);
-  GetMatrix(grid, matrix);
-  matrix->Invert();
-  vtkMatrix4x4::Multiply4x4(matrix, places, matrix);
-  const vtkSmartPointer<vtkMatrix4x4> steps = WholeSteps(matrix);
-  vtkNew<vtkMatrix4x4> rest;
-  std::transform(
-    matrix->GetData(), matrix->GetData() + 16, steps->GetData(), rest->GetData(), std::minus<>());
-  for (const std::array<double, 3>& apart : BoxOf(mask, rest, 0))
+  const Affine to = PlacesOf(grid);
+  Affine map = PlacesOf(mask);
+  map.First = Subtract(map.First, to.First);
+  const auto normal = [&to](std::size_t axis)
+  { return Cross(to.Steps[(axis + 1) % 3], to.Steps[(axis + 2) % 3]); };
+  const std::array<Vector3, 3> normals{ normal(0), normal(1), normal(2) };
+  const double volume = Dot(to.Steps[0], normals[0]);
+  for (Vector3* const vector : { &map.Steps[0], &map.Steps[1], &map.Steps[2], &map.First })
+  {
+    *vector = { Dot(normals[0], *vector) / volume, Dot(normals[1], *vector) / volume,
+      Dot(normals[2], *vector) / volume };
+  }
+  const Affine steps = WholeSteps(map);
+  Affine rest;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    rest.Steps[axis] = Subtract(map.Steps[axis], steps.Steps[axis]);
+  }
+  rest.First = Subtract(map.First, steps.First);
+  for (const Vector3& apart : BoxOf(mask, rest, 0))
   {
     if (!std::all_of(apart.begin(), apart.end(),
           [](double distance) { return std::abs(distance) <= Tolerance; }))
     {
-      return matrix;
+      return map;
     }
   }
   return steps;
@@ -109,8 +115,8 @@ vtkSmartPointer<vtkMatrix4x4> MatrixBetween(const ScalarImage& mask, const Scala
 
 bool AreOnOneLattice(const ScalarImage& mask, const ScalarImage& grid)
 {
-  const vtkSmartPointer<vtkMatrix4x4> matrix = MatrixBetween(mask, grid);
-  return std::equal(matrix->GetData(), matrix->GetData() + 16, WholeSteps(matrix)->GetData());
+  const Affine map = MapBetween(mask, grid);
+  return map == WholeSteps(map);
 }
 
 std::string Listed(const auto& numbers)
@@ -159,21 +165,19 @@ void RefuseOther(const ScalarImage& a, const std::string& shownOfA, const Scalar
 
 double VoxelVolume(const ScalarImage& image)
 {
-  return image.Spacing[0] * image.Spacing[1] * image.Spacing[2] *
-    std::abs(vtkMatrix3x3::Determinant(image.Direction.data()));
+  return image.Spacing[0] * image.Spacing[1] * image.Spacing[2] * VolumeOfDirections(image);
 }
 
 /** Voxels of a mask whose centres are in no voxel of a grid. */
 std::uint64_t CountBeyond(const ScalarImage& mask, const ScalarImage& grid, double threshold)
 {
-  const vtkSmartPointer<vtkMatrix4x4> matrix = MatrixBetween(mask, grid);
+  const Affine map = MapBetween(mask, grid);
   return Dispatch(mask.Type,
     [&](auto zero)
     {
       using T = decltype(zero);
       const T* voxel = static_cast<const T*>(mask.Scalars.get());
       std::uint64_t count = 0;
-      std::array<double, 4> index{ 0, 0, 0, 1 };
       for (int k = 0; k < mask.Dimensions[2]; ++k)
       {
         for (int j = 0; j < mask.Dimensions[1]; ++j)
@@ -182,8 +186,7 @@ std::uint64_t CountBeyond(const ScalarImage& mask, const ScalarImage& grid, doub
           {
             if (IsInside(*voxel, threshold))
             {
-              index = { static_cast<double>(i), static_cast<double>(j), static_cast<double>(k), 1 };
-              matrix->MultiplyPoint(index.data(), index.data());
+              const Vector3 index = map.At(i, j, k);
               bool isBeyond = false;
               for (std::size_t axis = 0; axis < 3; ++axis)
               {
@@ -197,12 +200,6 @@ std::uint64_t CountBeyond(const ScalarImage& mask, const ScalarImage& grid, doub
       }
       return count;
     });
-}
-
-std::shared_ptr<void> Allocate(std::size_t bytes)
-{
-  const std::shared_ptr<std::byte[]> memory(new std::byte[bytes]);
-  return { memory, memory.get() };
 }
 
 /** Whether the middle of two voxels is meant. Some headers have single precision. */
@@ -222,18 +219,18 @@ int Nearest(double index)
 /** Whether voxels of a grid lie in the middle between those of a mask along an axis of both. */
 bool HasTies(const ScalarImage& mask, const ScalarImage& grid)
 {
-  const vtkSmartPointer<vtkMatrix4x4> matrix = MatrixBetween(grid, mask);
-  for (int row = 0; row < 3; ++row)
+  const Affine map = MapBetween(grid, mask);
+  for (std::size_t row = 0; row < 3; ++row)
   {
-    for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const double step = matrix->GetElement(row, axis);
-      const double others = std::abs(matrix->GetElement(row, (axis + 1) % 3)) +
-        std::abs(matrix->GetElement(row, (axis + 2) % 3));
-      const int size = grid.Dimensions[static_cast<std::size_t>(axis)];
+      const double step = map.Steps[axis][row];
+      const double others =
+        std::abs(map.Steps[(axis + 1) % 3][row]) + std::abs(map.Steps[(axis + 2) % 3][row]);
+      const int size = grid.Dimensions[axis];
       for (int i = 0; others * MostVoxels < 1.0 && step != 0 && i < size; ++i)
       {
-        if (IsTie(matrix->GetElement(row, 3) + i * step))
+        if (IsTie(map.First[row] + i * step))
         {
           return true;
         }
@@ -274,7 +271,7 @@ struct NearestInRow
 template <typename T>
 void ResampleAs(const ScalarImage& mask, const ScalarImage& grid, T* to)
 {
-  const vtkSmartPointer<vtkMatrix4x4> matrix = MatrixBetween(grid, mask);
+  const Affine map = MapBetween(grid, mask);
   const T* const from = static_cast<const T*>(mask.Scalars.get());
   const std::array<std::ptrdiff_t, 3> strides{ 1, mask.Dimensions[0],
     std::ptrdiff_t{ mask.Dimensions[0] } * mask.Dimensions[1] };
@@ -283,12 +280,11 @@ void ResampleAs(const ScalarImage& mask, const ScalarImage& grid, T* to)
   {
     for (int j = 0; j < grid.Dimensions[1]; ++j)
     {
-      std::array<double, 4> begin{ 0, static_cast<double>(j), static_cast<double>(k), 1 };
-      matrix->MultiplyPoint(begin.data(), begin.data());
+      const Vector3 begin = map.At(0, j, k);
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        near[axis].Update(begin[axis], matrix->GetElement(static_cast<int>(axis), 0),
-          grid.Dimensions[0], mask.Dimensions[axis], strides[axis]);
+        near[axis].Update(begin[axis], map.Steps[0][axis], grid.Dimensions[0],
+          mask.Dimensions[axis], strides[axis]);
       }
       for (int i = 0; i < grid.Dimensions[0]; ++i)
       {
@@ -304,7 +300,7 @@ ScalarImage Resample(const ScalarImage& mask, const ScalarImage& grid)
 {
   ScalarImage result = grid;
   result.Type = mask.Type;
-  result.Scalars = Allocate(grid.NumberOfVoxels() * SizeOf(mask.Type));
+  result.Scalars = AllocateVoxels(grid.NumberOfVoxels() * SizeOf(mask.Type));
   Dispatch(mask.Type,
     [&](auto zero) { ResampleAs(mask, grid, static_cast<decltype(zero)*>(result.Scalars.get())); });
   return result;
@@ -386,7 +382,7 @@ bool MasksOnGrid::TakePlace(ScalarImage& image, const std::string& shown)
   const Place& first = *same.front();
   for (const Place* other : same)
   {
-    RefuseIf(isFirstPlaced && !MatrixBetween(other->Image, first.Image)->IsIdentity(), shown,
+    RefuseIf(isFirstPlaced && MapBetween(other->Image, first.Image) != Affine(), shown,
       " does not say where it lies, and masks of its size lie at several places, ", first.Shown,
       " and ", other->Shown, ": save it with its place, as NRRD or NIfTI");
   }
@@ -438,39 +434,30 @@ const MasksOnGrid::Place& MasksOnGrid::Finest() const
 ScalarImage MasksOnGrid::Refined() const
 {
   ScalarImage grid = this->Finest().Image;
-  std::array<double, 4> first{ 0, 0, 0, 1 };
-  std::array<double, 3> ratios{ 1, 1, 1 };
+  Vector3 first{};
+  Vector3 ratios{ 1, 1, 1 };
   for (const Place* place : this->Placed())
   {
-    const vtkSmartPointer<vtkMatrix4x4> matrix = MatrixBetween(place->Image, grid);
-    for (int row = 0; row < 3; ++row)
+    const Affine map = MapBetween(place->Image, grid);
+    for (std::size_t row = 0; row < 3; ++row)
     {
-      for (int axis = 0; axis < 3; ++axis)
+      for (Vector3 step : map.Steps)
       {
-        std::array<double, 3> step;
-        for (int r = 0; r < 3; ++r)
-        {
-          step[static_cast<std::size_t>(r)] = matrix->GetElement(r, axis);
-        }
-        const auto along = static_cast<std::size_t>(row);
-        const double ratio = std::abs(step[along]);
-        step[along] = 0;
+        const double ratio = std::abs(step[row]);
+        step[row] = 0;
         const bool isParallel = std::all_of(
           step.begin(), step.end(), [ratio](double x) { return std::abs(x) < Tolerance * ratio; });
-        if (isParallel && ratio < ratios[along] * (1 - Tolerance))
+        if (isParallel && ratio < ratios[row] * (1 - Tolerance))
         {
-          ratios[along] = ratio;
-          const double begin = matrix->GetElement(row, 3);
+          ratios[row] = ratio;
+          const double begin = map.First[row];
           const double low = (ratio - 1.0) / 2.0 - Tolerance * ratio; // in the first voxel
-          first[along] = begin + std::ceil((low - begin) / ratio) * ratio;
+          first[row] = begin + std::ceil((low - begin) / ratio) * ratio;
         }
       }
     }
   }
-  vtkNew<vtkMatrix4x4> places;
-  GetMatrix(grid, places);
-  places->MultiplyPoint(first.data(), first.data());
-  std::copy_n(first.begin(), 3, grid.Origin.begin());
+  grid.Origin = PlacesOf(grid).At(first[0], first[1], first[2]);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     grid.Spacing[axis] *= ratios[axis];
@@ -481,13 +468,13 @@ ScalarImage MasksOnGrid::Refined() const
 /** To all masks; nothing if it has too many voxels then. */
 std::optional<ScalarImage> MasksOnGrid::Extended(ScalarImage grid) const
 {
-  std::array<double, 4> first{ 0, 0, 0, 1 };
-  std::array<double, 3> last{};
+  Vector3 first{};
+  Vector3 last{};
   double largest = 0;
   for (const Place* place : this->Placed())
   {
     const ScalarImage& image = place->Image;
-    const auto [low, high] = BoxOf(image, MatrixBetween(image, grid), 0.5);
+    const auto [low, high] = BoxOf(image, MapBetween(image, grid), 0.5);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       first[axis] = std::min(first[axis], std::ceil(low[axis] + Tolerance));
@@ -507,14 +494,11 @@ std::optional<ScalarImage> MasksOnGrid::Extended(ScalarImage grid) const
   {
     return std::nullopt;
   }
-  vtkNew<vtkMatrix4x4> matrix;
-  GetMatrix(grid, matrix);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     grid.Dimensions[axis] = static_cast<int>(last[axis] - first[axis]) + 1;
   }
-  matrix->MultiplyPoint(first.data(), first.data());
-  std::copy_n(first.begin(), 3, grid.Origin.begin());
+  grid.Origin = PlacesOf(grid).At(first[0], first[1], first[2]);
   return grid;
 }
 
@@ -536,10 +520,10 @@ bool MasksOnGrid::Add(const LabelTable::Entry& entry, ScalarImage image, const s
   if (!this->Union)
   {
     this->Grid = this->FindGrid();
-    this->Union.emplace(this->Grid, Allocate, "masks");
+    this->Union.emplace(this->Grid, AllocateVoxels, "masks");
   }
   const std::string name = entry.Name.empty() ? shown : entry.Name;
-  if (image.Dimensions != this->Grid.Dimensions || !MatrixBetween(image, this->Grid)->IsIdentity())
+  if (image.Dimensions != this->Grid.Dimensions || MapBetween(image, this->Grid) != Affine())
   {
     if (this->Offered.size() == 1)
     {
@@ -564,7 +548,7 @@ bool MasksOnGrid::Add(const LabelTable::Entry& entry, ScalarImage image, const s
   {
     this->Union->AddMask(image, this->Threshold);
   }
-  catch (const FileError& error)
+  catch (const InputError& error)
   {
     Refuse(shown, " is no mask, as each of several must be: ", error.what());
   }
@@ -585,34 +569,31 @@ void MasksOnGrid::Resample(const std::string& name, ScalarImage& image, const st
   {
     this->Ties += (this->Ties.empty() ? "" : ", ") + Excerpt(name);
   }
-  image = io::Resample(image, this->Grid);
+  image = voxplex::Resample(image, this->Grid);
 }
 
-ImageAnswer MasksOnGrid::Finish(Overlap rule, std::vector<std::string> warnings)
+ScalarImage MasksOnGrid::Finish(Overlap rule, std::vector<std::string>& warnings)
 {
-  ImageAnswer answer;
-  answer.Warnings = std::move(warnings);
   if (!this->Lost.empty())
   {
-    answer.Warnings.push_back("masks reach too far beyond the finest grid, that of " +
+    warnings.push_back("masks reach too far beyond the finest grid, that of " +
       this->Finest().Shown + ", and lose voxels there: " + this->Lost);
   }
   if (!this->Ties.empty())
   {
-    answer.Warnings.push_back("faces of masks lie in the middle of voxels of the finest grid, and "
-                              "are up to half a voxel off: " +
+    warnings.push_back("faces of masks lie in the middle of voxels of the finest grid, and are up "
+                       "to half a voxel off: " +
       this->Ties);
   }
   if (!this->Put.empty())
   {
-    answer.Warnings.push_back("masks that do not say where they lie were put where others of their "
-                              "size lie: " +
+    warnings.push_back("masks that do not say where they lie were put where others of their size "
+                       "lie: " +
       this->Put);
   }
-  answer.Image = this->Union->Finish(rule, answer.Warnings);
-  answer.Labels = std::move(this->Labels);
-  answer.Warnings.insert(answer.Warnings.end(), this->OddNames.begin(), this->OddNames.end());
-  return answer;
+  const ScalarImage image = this->Union->Finish(rule, warnings);
+  warnings.insert(warnings.end(), this->OddNames.begin(), this->OddNames.end());
+  return image;
 }
 
-} // namespace voxplex::io
+} // namespace voxplex

@@ -4,16 +4,14 @@
  * @file MaskUnion.h
  * @brief Several masks, which may overlap, become one label image.
  */
-#ifndef voxplex_io_MaskUnion_h
-#define voxplex_io_MaskUnion_h
+#ifndef voxplex_MaskUnion_h
+#define voxplex_MaskUnion_h
 
 #include "ScalarImage.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
-#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -21,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace voxplex::io
+namespace voxplex
 {
 
 /** Which of the masks that have a voxel gets it. */
@@ -49,8 +47,7 @@ public:
    * @param grid where all masks lie; its voxels are not used
    * @param word what messages call masks
    */
-  MaskUnion(const ScalarImage& grid,
-    const std::function<std::shared_ptr<void>(std::size_t)>& allocate, std::string word);
+  MaskUnion(const ScalarImage& grid, const VoxelAllocator& allocate, std::string word);
 
   /**
    * Of the next mask, which need not have voxels.
@@ -64,7 +61,7 @@ public:
    * Adds the last named mask.
    *
    * @param threshold above which probabilities are inside
-   * @throws FileError with the reason alone: real numbers that are no probabilities, more than 65535 sets of masks
+   * @throws InputError with the reason alone: real numbers that are no probabilities, more than 65535 sets of masks
    */
   void AddMask(const ScalarImage& mask, double threshold = 0.5);
 
@@ -100,6 +97,6 @@ private:
   std::map<std::pair<Set, std::uint32_t>, Set> Successors;
 };
 
-} // namespace voxplex::io
+} // namespace voxplex
 
 #endif

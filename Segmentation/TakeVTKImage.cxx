@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Readers.h"
+#include "VTKImage.h"
 
 #include "ImageVoxels.h"
 #include "Placement.h"
+#include "Refuse.h"
+#include "ShownText.h"
 #include "Space.h"
-#include "Text.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
-#include <vtkMatrix3x3.h>
 #include <vtkPointData.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace voxplex::io
+namespace voxplex
 {
 namespace
 {
@@ -118,28 +118,18 @@ ScalarType ScalarTypeOf(vtkDataArray* array)
   return *type;
 }
 
-Space SpaceOf(vtkImageData* image, Reading& reading)
+/** Where labels lie, without their voxels. */
+ScalarImage PlaceOf(vtkImageData* image, const Labels& labels)
 {
-  std::optional<std::string> unknown;
-  const Space space = GetSpace(image->GetFieldData(), &unknown);
-  if (unknown)
-  {
-    reading.Warnings.push_back(
-      "it does not say where left, posterior and superior are (SPACE is '" + Excerpt(*unknown) +
-      "'); its coordinates are taken for LPS");
-  }
-  return space;
-}
-
-void SetGeometry(ScalarImage& result, vtkImageData* image, Space space, bool areCells)
-{
+  ScalarImage result;
+  result.Type = ScalarTypeOf(labels.Array);
   for (int axis = 0; axis < 3; ++axis)
   {
     RefuseIf(!(image->GetSpacing()[axis] > 0), "the voxel spacing along axis ", axis,
       " is not positive in its header: correct the header");
   }
-  VoxelPlaces places = PlacesOf(image, areCells);
-  const auto toLPS = [signs = SignsFromLPS(space)](Vector3& vector)
+  VoxelPlaces places = PlacesOf(image, labels.AreCells);
+  const auto toLPS = [signs = SignsFromLPS(GetSpace(image->GetFieldData()))](Vector3& vector)
   {
     std::transform(signs.begin(), signs.end(), vector.begin(), vector.begin(), std::multiplies<>());
   };
@@ -147,47 +137,37 @@ void SetGeometry(ScalarImage& result, vtkImageData* image, Space space, bool are
   toLPS(places.First);
   SetSizes(result, { places.Dimensions.begin(), places.Dimensions.end() });
   Place(result, places.Steps, places.First);
-}
-
-void CopyNumbers(vtkDataArray* array, std::byte* to, std::size_t size)
-{
-  const vtkIdType count = array->GetNumberOfTuples();
-  if (array->GetDataType() == VTK_BIT)
-  {
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      to[i] = array->GetComponent(i, 0) != 0 ? std::byte{ 1 } : std::byte{ 0 };
-    }
-    return;
-  }
-  std::memcpy(to, array->GetVoidPointer(0), static_cast<std::size_t>(count) * size);
+  return result;
 }
 
 } // namespace
 
-ScalarImage PlaceOfVTKImage(vtkImageData* image, Reading& reading)
+ScalarImage PlaceOfVTKImage(vtkImageData* image)
 {
-  const Labels labels = ChooseLabels(image);
-  ScalarImage result;
-  result.Type = ScalarTypeOf(labels.Array);
-  SetGeometry(result, image, SpaceOf(image, reading), labels.AreCells);
-  return result;
+  return PlaceOf(image, ChooseLabels(image));
 }
 
-ScalarImage TakeVTKImage(vtkImageData* image, Reading& reading)
+ScalarImage TakeVTKImage(vtkImageData* image, const VoxelAllocator& allocate, LabelTable& table,
+  std::vector<std::string>& warnings)
 {
-  ScalarImage result = PlaceOfVTKImage(image, reading);
   const Labels labels = ChooseLabels(image);
-  reading.Labels = GetLabelTable(image->GetFieldData());
-  LeaveOutOtherTexts(reading.Labels, reading.Warnings);
+  ScalarImage result = PlaceOf(image, labels);
+  std::optional<std::string> unknown;
+  GetSpace(image->GetFieldData(), &unknown);
+  if (unknown)
+  {
+    warnings.push_back("it does not say where left, posterior and superior are (SPACE is '" +
+      Excerpt(*unknown) + "'); its coordinates are taken for LPS");
+  }
+  table = GetLabelTable(image->GetFieldData());
+  LeaveOutOtherTexts(table, warnings);
   const auto count = static_cast<vtkIdType>(result.NumberOfVoxels());
   RefuseIf(labels.Array->GetNumberOfTuples() != count, "it is truncated or damaged: its array ",
     NameOf(labels), " has ", labels.Array->GetNumberOfTuples(), " numbers of ", count);
-  const bool areBits = labels.Array->GetDataType() == VTK_BIT;
-  const std::size_t size = areBits ? 1 : static_cast<std::size_t>(labels.Array->GetDataTypeSize());
-  result.Scalars = reading.Allocate(result.NumberOfVoxels() * size);
+  const std::size_t size = SizeOf(result.Type);
+  result.Scalars = allocate(result.NumberOfVoxels() * size);
   auto* const numbers = static_cast<std::byte*>(result.Scalars.get());
-  CopyNumbers(labels.Array, numbers, size);
+  std::memcpy(numbers, Contiguous(labels.Array)->GetVoidPointer(0), result.NumberOfVoxels() * size);
   const std::vector<char> hidden = FindHiddenVoxels(image, labels.AreCells);
   for (std::size_t voxel = 0; voxel < hidden.size(); ++voxel)
   {
@@ -199,4 +179,4 @@ ScalarImage TakeVTKImage(vtkImageData* image, Reading& reading)
   return result;
 }
 
-} // namespace voxplex::io
+} // namespace voxplex
