@@ -29,6 +29,7 @@ vtk_module_add_module(VTK::Voxplex
     ${voxplex_filters}/vtkImageToPentatopeMeshFilter
     ${voxplex_filters}/vtkImageToSimplexMeshFilter
     ${voxplex_filters}/vtkImageToTetMeshFilter
+    ${voxplex_filters}/vtkMasksToSegmentation
     ${voxplex_filters}/vtkMeshingStatistics
     ${voxplex_filters}/vtkPentatopeMeshTimeSlice
     ${voxplex_filters}/vtkSegmentationRepair

@@ -336,9 +336,7 @@ int vtkImageToSimplexMeshFilter::GetNumberOfWarnings() const
 
 const std::string& vtkImageToSimplexMeshFilter::GetWarning(int i) const
 {
-  static const std::string none;
-  const auto& warnings = this->Private->Warnings;
-  return i >= 0 && i < this->GetNumberOfWarnings() ? warnings[static_cast<std::size_t>(i)] : none;
+  return voxplex::TextAt(this->Private->Warnings, i);
 }
 
 //----------------------------------------------------------------------------------------------------

@@ -385,9 +385,7 @@ int vtkSegmentationRepair::GetNumberOfWarnings() const
 
 const std::string& vtkSegmentationRepair::GetWarning(int i) const
 {
-  static const std::string none;
-  const auto& warnings = this->Private->Warnings;
-  return i >= 0 && i < this->GetNumberOfWarnings() ? warnings[static_cast<std::size_t>(i)] : none;
+  return voxplex::TextAt(this->Private->Warnings, i);
 }
 
 int vtkSegmentationRepair::FillOutputPortInformation(int port, vtkInformation* info)

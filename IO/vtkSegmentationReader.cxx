@@ -235,7 +235,7 @@ bool vtkSegmentationReader::Read()
     RefuseIf(data.Path.empty(), "no file name is set");
     ImageAnswer answer = ReadImageOrMasks(paths,
       { "", this->SeriesUID ? this->SeriesUID : "", this->DataFilesAnywhere,
-        this->Overlap == OVERLAP_ORDER ? Overlap::Order : Overlap::Smallest, this->MaskThreshold },
+        static_cast<voxplex::Overlap>(this->Overlap), this->MaskThreshold },
       this->ResampleMasks, this->IsPlaced());
     data.Image = std::move(answer.Image);
     data.Labels = std::move(answer.Labels);
@@ -391,13 +391,11 @@ int vtkSegmentationReader::RequestData(
   const bool hasTime = information->Has(Pipeline::UPDATE_TIME_STEP());
   const int frame =
     hasTime ? NearestFrame(image, information->Get(Pipeline::UPDATE_TIME_STEP())) : 0;
-  const auto space = static_cast<voxplex::Space>(this->Space);
-  output->ShallowCopy(ToVTKImage(image, space, frame));
+  FillVTKImage(
+    output, image, static_cast<voxplex::Space>(this->Space), this->Private->Labels, frame);
   if (image.Frames > 1)
   {
     output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), image.TimeOf(frame));
   }
-  voxplex::SetSpace(output->GetFieldData(), space);
-  voxplex::SetLabelTable(output->GetFieldData(), this->Private->Labels);
   return 1;
 }

@@ -22,7 +22,7 @@
 namespace voxplex
 {
 
-/** Which of the masks that have a voxel gets it. */
+/** Which of the masks that have a voxel gets it; with the numbers of VTK's classes, OVERLAP_SMALLEST and OVERLAP_ORDER. */
 enum class Overlap
 {
   Smallest, ///< the one with the fewest voxels, of equals the first

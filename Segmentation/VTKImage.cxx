@@ -95,6 +95,14 @@ vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space, 
   return result;
 }
 
+void FillVTKImage(
+  vtkImageData* output, const ScalarImage& image, Space space, const LabelTable& table, int frame)
+{
+  output->ShallowCopy(ToVTKImage(image, space, frame));
+  SetSpace(output->GetFieldData(), space);
+  SetLabelTable(output->GetFieldData(), table);
+}
+
 void KeepLabelsOf(const ScalarImage& image, LabelTable& table)
 {
   Dispatch(image.Type, [&](auto zero) { KeepSeen<decltype(zero)>(image, table); });

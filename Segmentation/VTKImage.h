@@ -40,6 +40,10 @@ ScalarImage PlaceOfVTKImage(vtkImageData* image);
  */
 vtkSmartPointer<vtkImageData> ToVTKImage(const ScalarImage& image, Space space, int frame = 0);
 
+/** The same, with SPACE and the table in the field data. */
+void FillVTKImage(vtkImageData* output, const ScalarImage& image, Space space,
+  const LabelTable& table, int frame = 0);
+
 /** Removes labels that no voxel of any frame has. Ends when all of them have been seen. */
 void KeepLabelsOf(const ScalarImage& image, LabelTable& table);
 

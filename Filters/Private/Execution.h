@@ -50,24 +50,23 @@ inline unsigned ThreadsFor(int chosen)
   return static_cast<unsigned>(chosen > 0 ? chosen : SmpThreads());
 }
 
-/** Neither meshes nor their measures can be made piece by piece. Optional inputs may be missing. */
+/** Nothing here can be made piece by piece. Optional inputs may be missing. */
 inline void RequestWholeInputs(vtkInformationVector** inputs, int ports)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   for (int port = 0; port < ports; ++port)
   {
-    vtkInformation* const input = inputs[port]->GetInformationObject(0);
-    if (input == nullptr)
+    for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
     {
-      continue;
+      vtkInformation* const input = inputs[port]->GetInformationObject(i);
+      if (input->Has(Pipeline::WHOLE_EXTENT()))
+      {
+        input->Set(Pipeline::UPDATE_EXTENT(), input->Get(Pipeline::WHOLE_EXTENT()), 6);
+      }
+      input->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+      input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+      input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
     }
-    if (input->Has(Pipeline::WHOLE_EXTENT()))
-    {
-      input->Set(Pipeline::UPDATE_EXTENT(), input->Get(Pipeline::WHOLE_EXTENT()), 6);
-    }
-    input->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   }
 }
 

@@ -10,8 +10,11 @@
 #include "vtkIndent.h"
 #include "vtkObject.h"
 
+#include <cstddef>
 #include <iterator>
 #include <ostream>
+#include <string>
+#include <vector>
 
 namespace voxplex
 {
@@ -36,6 +39,13 @@ template <typename List>
 typename List::value_type ItemAt(const List& items, int index, typename List::value_type none)
 {
   return index >= 0 && index < std::ssize(items) ? *std::next(items.begin(), index) : none;
+}
+
+/** A text of a list that a getter shows; empty if the index is out of range. */
+inline const std::string& TextAt(const std::vector<std::string>& texts, int index)
+{
+  static const std::string none;
+  return index >= 0 && index < std::ssize(texts) ? texts[static_cast<std::size_t>(index)] : none;
 }
 
 /** Sets the size of a key of a map. */

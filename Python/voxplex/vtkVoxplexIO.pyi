@@ -7,9 +7,6 @@ from typing import Any
 from vtkmodules.vtkCommonExecutionModel import vtkImageAlgorithm
 from vtkmodules.vtkIOCore import vtkWriter
 
-class vtkMasksToSegmentation(vtkImageAlgorithm):
-    def __getattr__(self, name: str) -> Any: ...
-
 class vtkSegmentationReader(vtkImageAlgorithm):
     def __getattr__(self, name: str) -> Any: ...
 

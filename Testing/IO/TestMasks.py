@@ -574,6 +574,22 @@ class InMemory(MaskTestCase):
         self.assertEqual(mesher.GetErrorMessage(), "")
         self.assertEqual(mesher.GetOutput().GetPointData().GetArray("Time").GetRange(), (0, 3))
 
+    def test_progress_and_abort(self):
+        """Told before each mask; who stops there gets no image, no error, and all of it the next time."""
+        joiner = self.join(*map(self.image, self.BOXES[:2]))
+        expected, said = voxels(joiner.GetOutput()).copy(), []
+        joiner.AddObserver("ProgressEvent", lambda *_: said.append(joiner.GetProgress()))
+        tag = joiner.AddObserver("ProgressEvent", lambda caller, _: caller.SetAbortExecute(caller.GetProgress() == 0.5))
+        joiner.Modified()
+        joiner.Update()
+        self.assertEqual((joiner.GetErrorMessage(), joiner.GetOutput().GetNumberOfPoints(), warnings_of(joiner)), ("", 0, []))
+        self.assertEqual(max(said), 0.5)
+        joiner.RemoveObserver(tag)
+        joiner.Modified()
+        joiner.Update()
+        np.testing.assert_array_equal(voxels(joiner.GetOutput()), expected)
+        self.assertEqual(said[-1], 1.0)
+
     def test_pipeline(self):
         """A change before the filter reaches the mesh after it."""
         shape = (20, 20, 30)

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMasksToSegmentation.h"
 
-#include "FileError.h"
 #include "LabelTable.h"
 #include "MasksOnGrid.h"
+#include "Private/Execution.h"
+#include "Private/Lists.h"
+#include "Private/MeshingMessages.h"
+#include "Refuse.h"
 #include "ShownText.h"
 #include "VTKImage.h"
 
@@ -22,25 +25,21 @@
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <exception>
-#include <memory>
-#include <new>
 
 using namespace voxplex;
-using namespace voxplex::io;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 namespace
 {
 
+constexpr const char* NoMemory = "the masks do not fit into memory";
+
 struct Mask
 {
   vtkImageData* Image;
-  voxplex::LabelTable::Entry Entry; ///< its name is empty if there is none
+  LabelTable::Entry Entry; ///< its name is empty if there is none
 };
 
 /** Of a block; empty if it has none. */
@@ -110,11 +109,11 @@ void FindNames(std::vector<Mask>& masks)
   }
   for (Mask& mask : masks)
   {
-    const voxplex::LabelTable table = voxplex::GetLabelTable(mask.Image->GetFieldData());
+    const LabelTable table = GetLabelTable(mask.Image->GetFieldData());
     const std::string array = NameOfArray(mask.Image);
     if (table.Entries.size() == 1)
     {
-      const voxplex::LabelTable::Entry& only = table.Entries.begin()->second;
+      const LabelTable::Entry& only = table.Entries.begin()->second;
       mask.Entry.Color = only.Color;
       mask.Entry.Name = mask.Entry.Name.empty() ? only.Name : mask.Entry.Name;
     }
@@ -178,13 +177,7 @@ void OfferGrids(MasksOnGrid& joined, const std::vector<Mask>& masks)
 
 vtkStandardNewMacro(vtkMasksToSegmentation);
 
-vtkMasksToSegmentation::vtkMasksToSegmentation()
-  : Overlap(OVERLAP_SMALLEST)
-  , MaskThreshold(0.5)
-  , ResampleMasks(false)
-{
-}
-
+vtkMasksToSegmentation::vtkMasksToSegmentation() = default;
 vtkMasksToSegmentation::~vtkMasksToSegmentation() = default;
 
 void vtkMasksToSegmentation::PrintSelf(ostream& os, vtkIndent indent)
@@ -216,9 +209,7 @@ void vtkMasksToSegmentation::ClearMaskNames()
 
 const std::string& vtkMasksToSegmentation::GetWarning(int i) const
 {
-  static const std::string none;
-  return i >= 0 && i < this->GetNumberOfWarnings() ? this->Warnings[static_cast<std::size_t>(i)]
-                                                   : none;
+  return TextAt(this->Warnings, i);
 }
 
 int vtkMasksToSegmentation::FillInputPortInformation(int, vtkInformation* information)
@@ -229,103 +220,115 @@ int vtkMasksToSegmentation::FillInputPortInformation(int, vtkInformation* inform
   return 1;
 }
 
-int vtkMasksToSegmentation::Fail(const std::string& message, vtkInformationVector* outputVector)
+vtkTypeBool vtkMasksToSegmentation::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->ErrorMessage = message;
+  VOXPLEX_FORGET_ABORT(request);
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+int vtkMasksToSegmentation::Fail(vtkInformationVector* outputVector)
+{
   this->Warnings.clear();
-  vtkErrorMacro(<< message);
   if (vtkDataObject* output = vtkDataObject::GetData(outputVector))
   {
     output->Initialize();
   }
+  if (this->ErrorMessage.empty()) // it was stopped
+  {
+    return 1;
+  }
+  vtkErrorMacro(<< this->ErrorMessage);
   return 0;
+}
+
+void vtkMasksToSegmentation::Announce(vtkInformationVector* inputs, vtkInformation* output)
+{
+  const std::vector<Mask> masks = MasksOf(inputs, this->MaskNames);
+  MasksOnGrid joined(this->ResampleMasks);
+  OfferGrids(joined, masks);
+  const auto grid = ToVTKImage(joined.FindGrid(), GetSpace(masks.front().Image->GetFieldData()));
+  output->Set(Pipeline::WHOLE_EXTENT(), grid->GetExtent(), 6);
+  output->Set(vtkDataObject::ORIGIN(), grid->GetOrigin(), 3);
+  output->Set(vtkDataObject::SPACING(), grid->GetSpacing(), 3);
+  output->Set(vtkDataObject::DIRECTION(), grid->GetDirectionMatrix()->GetData(), 9);
+  vtkDataObject::SetPointDataActiveScalarInfo(output, VTK_UNSIGNED_SHORT, 1);
 }
 
 int vtkMasksToSegmentation::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->ErrorMessage.clear();
   for (int i = 0; i < this->GetNumberOfInputConnections(0); ++i)
   {
     int port = 0;
     vtkAlgorithm* const source = this->GetInputAlgorithm(0, i, port);
     source->Update(port);
   }
-  try
-  {
-    const std::vector<Mask> masks = MasksOf(inputVector[0], this->MaskNames);
-    MasksOnGrid joined(this->ResampleMasks);
-    OfferGrids(joined, masks);
-    const auto grid =
-      ToVTKImage(joined.FindGrid(), voxplex::GetSpace(masks.front().Image->GetFieldData()));
-    vtkInformation* information = outputVector->GetInformationObject(0);
-    information->Set(Pipeline::WHOLE_EXTENT(), grid->GetExtent(), 6);
-    information->Set(vtkDataObject::ORIGIN(), grid->GetOrigin(), 3);
-    information->Set(vtkDataObject::SPACING(), grid->GetSpacing(), 3);
-    information->Set(vtkDataObject::DIRECTION(), grid->GetDirectionMatrix()->GetData(), 9);
-    vtkDataObject::SetPointDataActiveScalarInfo(information, VTK_UNSIGNED_SHORT, 1);
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    return this->Fail(error.what(), outputVector);
-  }
+  this->ErrorMessage = CatchFailure(
+    [&] { this->Announce(inputVector[0], outputVector->GetInformationObject(0)); }, NoMemory, "");
+  return this->ErrorMessage.empty() ? 1 : this->Fail(outputVector);
 }
 
 int vtkMasksToSegmentation::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  for (int i = 0; i < inputVector[0]->GetNumberOfInformationObjects(); ++i)
+  RequestWholeInputs(inputVector, 1);
+  return 1;
+}
+
+void vtkMasksToSegmentation::Join(vtkInformationVector* inputs, vtkImageData* output)
+{
+  const std::vector<Mask> masks = MasksOf(inputs, this->MaskNames);
+  MasksOnGrid joined(this->ResampleMasks, this->MaskThreshold);
+  OfferGrids(joined, masks);
+  for (const Mask& mask : masks)
   {
-    vtkInformation* const information = inputVector[0]->GetInformationObject(i);
-    if (information->Has(Pipeline::WHOLE_EXTENT()))
+    this->UpdateProgress(
+      static_cast<double>(&mask - masks.data()) / static_cast<double>(masks.size()));
+    if (IsStopRequested(this))
     {
-      information->Set(Pipeline::UPDATE_EXTENT(), information->Get(Pipeline::WHOLE_EXTENT()), 6);
+      throw Cancelled();
+    }
+    const std::string shown = Shown(masks, mask);
+    std::vector<std::string> warnings;
+    LabelTable ignored; // FindNames() has taken what is wanted of it
+    joined.Add(mask.Entry,
+      Take(shown, [&] { return TakeVTKImage(mask.Image, AllocateVoxels, ignored, warnings); }),
+      shown);
+    for (const std::string& warning : warnings)
+    {
+      this->Warnings.push_back(shown + ": " + warning);
     }
   }
-  return 1;
+  const ScalarImage image =
+    joined.Finish(static_cast<voxplex::Overlap>(this->Overlap), this->Warnings);
+  LabelTable labels = joined.GetLabels();
+  KeepLabelsOf(image, labels);
+  FillVTKImage(output, image, GetSpace(masks.front().Image->GetFieldData()), labels);
+  this->UpdateProgress(1.0);
 }
 
 int vtkMasksToSegmentation::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->ErrorMessage.clear();
   this->Warnings.clear();
-  try
-  {
-    const std::vector<Mask> masks = MasksOf(inputVector[0], this->MaskNames);
-    MasksOnGrid joined(this->ResampleMasks, this->MaskThreshold);
-    OfferGrids(joined, masks);
-    for (const Mask& mask : masks)
+  bool isAborted = false;
+  this->ErrorMessage = CatchFailure(
+    [&]
     {
-      const std::string shown = Shown(masks, mask);
-      std::vector<std::string> warnings;
-      voxplex::LabelTable ignored; // FindNames() has taken what is wanted of it
-      joined.Add(mask.Entry,
-        Take(shown, [&] { return TakeVTKImage(mask.Image, AllocateVoxels, ignored, warnings); }),
-        shown);
-      for (const std::string& warning : warnings)
+      try
       {
-        this->Warnings.push_back(shown + ": " + warning);
+        this->Join(inputVector[0], vtkImageData::GetData(outputVector));
       }
-    }
-    const ScalarImage image = joined.Finish(
-      this->Overlap == OVERLAP_ORDER ? Overlap::Order : Overlap::Smallest, this->Warnings);
-    voxplex::LabelTable labels = joined.GetLabels();
-    KeepLabelsOf(image, labels);
-    vtkImageData* const output = vtkImageData::GetData(outputVector);
-    const voxplex::Space space = voxplex::GetSpace(masks.front().Image->GetFieldData());
-    output->ShallowCopy(ToVTKImage(image, space));
-    voxplex::SetSpace(output->GetFieldData(), space);
-    voxplex::SetLabelTable(output->GetFieldData(), labels);
-  }
-  catch (const std::bad_alloc&)
+      catch (const Cancelled&)
+      {
+        isAborted = true;
+      }
+    },
+    NoMemory, "");
+  if (isAborted || !this->ErrorMessage.empty())
   {
-    return this->Fail("the masks do not fit into memory", outputVector);
-  }
-  catch (const std::exception& error)
-  {
-    return this->Fail(error.what(), outputVector);
+    return this->Fail(outputVector);
   }
   for (const std::string& warning : this->Warnings)
   {

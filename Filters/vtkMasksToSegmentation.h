@@ -27,7 +27,8 @@
  * @par Errors
  * Reported with vtkErrorMacro; GetErrorMessage() keeps the reason, and the output is empty: masks between voxels of others,
  * real numbers that are no probabilities, several arrays that could be meant, no input. What overlaps, and which masks
- * have no voxel, is reported with vtkWarningMacro, and kept for GetWarning().
+ * have no voxel, is reported with vtkWarningMacro, and kept for GetWarning(). If AbortExecute is set, the filter stops
+ * before the next mask, and leaves the output empty.
  *
  * @sa vtkSegmentationReader
  */
@@ -35,13 +36,13 @@
 #define vtkMasksToSegmentation_h
 
 #include "vtkImageAlgorithm.h"
-#include "vtkVoxplexIOModule.h" // For export macro
+#include "vtkVoxplexModule.h" // For export macro
 
 #include <map>    // For std::map
 #include <string> // For std::string
 #include <vector> // For std::vector
 
-class VTKVOXPLEXIO_EXPORT vtkMasksToSegmentation : public vtkImageAlgorithm
+class VTKVOXPLEX_EXPORT vtkMasksToSegmentation : public vtkImageAlgorithm
 {
 public:
   ///@{
@@ -99,6 +100,8 @@ protected:
   ~vtkMasksToSegmentation() override;
 
   int FillInputPortInformation(int port, vtkInformation* information) override;
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
@@ -106,17 +109,18 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  std::map<int, std::string> MaskNames;
-  int Overlap;
-  double MaskThreshold;
-  bool ResampleMasks;
-
 private:
   vtkMasksToSegmentation(const vtkMasksToSegmentation&) = delete;
   void operator=(const vtkMasksToSegmentation&) = delete;
 
-  int Fail(const std::string& message, vtkInformationVector* outputVector);
+  void Announce(vtkInformationVector* masks, vtkInformation* output);
+  void Join(vtkInformationVector* masks, vtkImageData* output);
+  int Fail(vtkInformationVector* outputVector);
 
+  std::map<int, std::string> MaskNames;
+  int Overlap = OVERLAP_SMALLEST;
+  double MaskThreshold = 0.5;
+  bool ResampleMasks = false;
   std::string ErrorMessage;
   std::vector<std::string> Warnings;
 };
