@@ -8,7 +8,7 @@ set(VOXPLEX_HAVE_IO OFF)
 
 # The component names of VTK's modules that IO/vtk.module lists.
 set(_voxplex_io_components
-  CommonCore CommonDataModel CommonExecutionModel CommonMisc IOCore IOGeometry IOLegacy IOXML expat hdf5 png tiff)
+  CommonCore CommonDataModel CommonExecutionModel CommonMisc IOCore IOGeometry IOLegacy IOXML expat hdf5 png tiff zlib)
 
 if (WIN32)
   voxplex_skip("reading and writing of files" "images are read by a process of its own, which is started as on POSIX systems only")
@@ -28,11 +28,6 @@ else ()
   endif ()
   set(VOXPLEX_GDCM_LIBRARIES ${ITK_LIBRARIES})
   set(VOXPLEX_GDCM_INCLUDE_DIRECTORIES ${ITK_INCLUDE_DIRS})
-endif ()
-find_package(ZLIB QUIET)
-if (NOT ZLIB_FOUND)
-  voxplex_skip("reading and writing of files" "zlib was not found (apt-get install zlib1g-dev)")
-  return ()
 endif ()
 if (NOT ParaView_FOUND) # which brings a VTK of its own
   find_package(VTK 9.1 QUIET COMPONENTS ${_voxplex_io_components})

@@ -49,10 +49,10 @@
  * has changed.
  *
  * @par The reading process
- * The file is read by a program of its own (voxplexImageReader, beside this library), which may open no other files
- * and has limits of memory and time; it hands over the voxels in shared memory. Whatever a damaged file does to the
- * libraries that read it, this process lives and has a message. If the process cannot be started, there is an
- * error, and no image.
+ * DICOM, TIFF, VTK's files and folders of slices are read by libraries, in a program of its own (voxplexImageReader,
+ * beside this library), which may open no other files and has limits of memory and time; it hands over the voxels in
+ * shared memory. Whatever a damaged file does to a library, this process lives and has a message. If the process cannot
+ * be started, there is an error, and no image. The other formats are read in this process, by code of voxplex.
  *
  * @par Thread safety
  * Distinct instances may execute at the same time.

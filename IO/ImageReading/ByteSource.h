@@ -7,7 +7,7 @@
 #ifndef voxplex_io_ByteSource_h
 #define voxplex_io_ByteSource_h
 
-#include <zlib.h>
+#include <vtk_zlib.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -347,7 +347,8 @@ ScalarImage ReadSegments(Volume& volume, Reading& reading)
   }
   const DICOMDataSet data(volume.Files.front());
   const DICOMPixels pixels(data);
-  const double threshold = FindThreshold(data, volume.Format.BitsStored, reading.MaskThreshold);
+  const double threshold =
+    FindThreshold(data, volume.Format.BitsStored, reading.Request.MaskThreshold);
   std::set<std::pair<unsigned, std::size_t>> known;
   bool areEndsInFile = false;
   std::stable_sort(volume.Slices.begin(), volume.Slices.end(),
@@ -370,7 +371,7 @@ ScalarImage ReadSegments(Volume& volume, Reading& reading)
   }
   WarnOfLoss(volume, reading);
   TakeLabels(volume, reading);
-  image = segments.Finish(reading.Rule, reading.Warnings);
+  image = segments.Finish(reading.Request.Rule, reading.Warnings);
   if (areEndsInFile)
   {
     TakeEndsAway(image, slices);
@@ -490,11 +491,6 @@ FileNames ChooseSeries(
 
 } // namespace
 
-bool IsDICOM(const InputFile& file)
-{
-  return DICOMDataSet::Recognize(file);
-}
-
 ScalarImage ReadDICOMFile(const std::string& path, Reading& reading)
 {
   Volume volume;
@@ -503,9 +499,9 @@ ScalarImage ReadDICOMFile(const std::string& path, Reading& reading)
                                                 : ReadVolume(volume, reading);
 }
 
-ScalarImage ReadDICOMFolder(const std::string& path, const std::string& series, Reading& reading)
+ScalarImage ReadDICOMFolder(const std::string& path, Reading& reading)
 {
-  const FileNames files = ChooseSeries(FindSeries(path), series, reading.Warnings);
+  const FileNames files = ChooseSeries(FindSeries(path), reading.Request.Series, reading.Warnings);
   if (files.size() == 1)
   {
     return Naming(files[0], [&] { return ReadDICOMFile(files[0], reading); });

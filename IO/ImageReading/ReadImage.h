@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ReadImage.h
- * @brief Reads a 3D or 4D image, in a process of its own.
+ * @brief Reads a 3D or 4D image from a file or folder.
  */
 #ifndef voxplex_io_ReadImage_h
 #define voxplex_io_ReadImage_h
@@ -28,14 +28,13 @@ struct ImageRequest
   double MaskThreshold = 0.5;       ///< above which probabilities are inside
 };
 
-struct ImageAnswer
+/** What is known of an image beside its voxels and its place. */
+struct ImageNotes
 {
-  ScalarImage Image;
-  LabelTable Labels; ///< names and colours that the file has itself
-  std::vector<std::string>
-    Warnings; ///< what was odd but could be read, one line each, with the name of the image
+  LabelTable Labels;                 ///< names and colours that the file has itself
+  std::vector<std::string> Warnings; ///< what was odd but could be read, one line each
   ///@{
-  /** The same of what the reader guessed: the spacing, or origin and directions. */
+  /** The same of what the file does not say, and the reader guessed: the spacing, or origin and directions. */
   std::vector<std::string> SpacingGuesses;
   std::vector<std::string> PlaceGuesses;
   ///@}
@@ -43,24 +42,24 @@ struct ImageAnswer
     Files; ///< that were read, if they are others than those that were asked for
 };
 
-/**
- * Reads an image here and now, for the reading process, in the scalar type that the file has. The first bytes of a file
- * tell its format, not its name: NRRD, NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK, MGH, GIPL, MRC. A fourth dimension
- * is time; last dimensions of length 1 do not count, so that an image with one frame is a 3D image. Never prints.
- *
- * @throws FileError that names the image: no such file, another format, truncated, damaged, no single numbers in three
- * or four dimensions, a place that is none
- */
-ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& allocate);
+struct ImageAnswer : ImageNotes
+{
+  ScalarImage Image;
+};
 
 /**
- * Reads an image in a process of its own, which may open no other files and has limits of memory and time: whatever
- * the file does to the libraries that read it, this process lives. There is no other way: if the process cannot be
- * started, the image is not read.
+ * Reads an image in the scalar type that the file has. The first bytes of a file tell its format, not its name: NRRD,
+ * NIfTI, ANALYZE, MetaImage, DICOM, TIFF, VTK, MGH, GIPL, MRC. A fourth dimension is time; last dimensions of length 1
+ * do not count, so that an image with one frame is a 3D image. Warnings begin with the name of the image. Never prints.
+ *
+ * Formats that a library reads (DICOM, TIFF, VTK, folders of slices) are read in a process of its own, which may open no
+ * other files and has limits of memory and time: whatever the file does to the library, this process lives. If that
+ * process cannot be started, they are not read. All else is read here, by code of voxplex.
  *
  * Any thread may call it at any time.
  *
- * @throws FileError as above, and if the reading process cannot be started, crashed or reached a limit
+ * @throws FileError that names the image: no such file, another format, truncated, damaged, no single numbers in three
+ * or four dimensions, a place that is none; the reading process cannot be started, crashed or reached a limit
  */
 ImageAnswer ReadImage(const ImageRequest& request);
 

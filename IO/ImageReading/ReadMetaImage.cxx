@@ -113,7 +113,7 @@ StoredVoxels FindVoxels(const TextHeader& header, const Reading& reading)
   stored.IsBigEndian = IsTrue(header, { "elementbyteordermsb", "binarydatabyteordermsb" }, false);
   const std::string* file = header.Find("elementdatafile");
   RefuseIf(!file, "its header does not give ElementDataFile");
-  header.SetFiles(file, reading.DataFilesAnywhere, stored);
+  header.SetFiles(file, reading.Request.DataFilesAnywhere, stored);
   RefuseIf(header.Whole({ "compresseddatasize" }, 0) < 0,
     "its header gives a CompressedDataSize below 0: correct the header");
   const std::int64_t headerSize = header.Whole({ "headersize" }, 0);

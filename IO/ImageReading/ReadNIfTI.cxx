@@ -464,7 +464,8 @@ StoredVoxels FindVoxels(const Header& header, const Reading& reading)
     voxels = FindCompanion(path, ".hdr", ".img").value_or("");
     RefuseIf(voxels.empty(), "its voxels are in another file, '",
       fs::path(path).stem().replace_extension(".img").string(), "', which is not beside it");
-    voxels = FindDataFile(path, fs::path(voxels).filename().string(), reading.DataFilesAnywhere);
+    voxels =
+      FindDataFile(path, fs::path(voxels).filename().string(), reading.Request.DataFilesAnywhere);
   }
   constexpr double largest = 1e15;
   const double least = header.HoldsVoxels ? static_cast<double>(header.Length) : 0.0;

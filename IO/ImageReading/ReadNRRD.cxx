@@ -447,7 +447,8 @@ StoredVoxels FindVoxels(const TextHeader& header, std::size_t size, const Readin
   const bool isRaw = stored.Coding == Encoding::Raw;
   RefuseIf(stored.LinesToSkip < 0 || stored.BytesToSkip < (isRaw ? StoredVoxels::FromTheEnd : 0),
     "its header skips less than nothing ('line skip' or 'byte skip'): correct the header");
-  header.SetFiles(header.FindAny({ "data file", "datafile" }), reading.DataFilesAnywhere, stored);
+  header.SetFiles(
+    header.FindAny({ "data file", "datafile" }), reading.Request.DataFilesAnywhere, stored);
   return stored;
 }
 

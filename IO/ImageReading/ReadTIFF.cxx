@@ -629,13 +629,6 @@ void SubtractOffset(ScalarImage& image)
 
 } // namespace
 
-bool IsTIFF(const InputFile& file)
-{
-  constexpr std::array<std::string_view, 4> beginnings{ { { "II*\0", 4 }, { "MM\0*", 4 },
-    { "II+\0", 4 }, { "MM\0+", 4 } } };
-  return std::find(beginnings.begin(), beginnings.end(), file.Beginning(4)) != beginnings.end();
-}
-
 ScalarImage ReadTIFFSlice(const std::string& path, Reading& reading)
 {
   const InputFile file(path);

@@ -30,13 +30,6 @@ namespace
 
 // --- Which reader
 
-constexpr std::size_t LongestBeginning = 4096;
-
-bool IsLegacy(const std::string& beginning)
-{
-  return beginning.rfind("# vtk DataFile", 0) == 0;
-}
-
 /** What the fourth line says. */
 std::string LegacyType(const std::string& beginning)
 {
@@ -109,20 +102,11 @@ vtkSmartPointer<vtkImageData> ReadXML(const InputFile& file, const VTKMessages& 
 
 } // namespace
 
-bool IsVTK(const InputFile& file)
-{
-  const std::string beginning = file.Beginning(LongestBeginning);
-  const std::size_t first = beginning.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  return IsLegacy(beginning) ||
-    (first != beginning.npos && beginning[first] == '<' &&
-      beginning.find("<VTKFile") != beginning.npos);
-}
-
 ScalarImage ReadVTK(const std::string& path, Reading& reading)
 {
   const InputFile file(path);
-  const std::string beginning = file.Beginning(LongestBeginning);
-  const bool isLegacy = IsLegacy(beginning);
+  const std::string beginning = BeginningOfVTK(file);
+  const bool isLegacy = IsLegacyVTK(beginning);
   if (isLegacy)
   {
     CheckKindOfVTK(LegacyType(beginning), "STRUCTURED_POINTS");

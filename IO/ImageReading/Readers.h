@@ -6,15 +6,15 @@
  * a file, and one reads the image.
  *
  * A reader throws FileError with the reason alone ("its header claims ..."): ReadImage() puts the name of the image
- * before it. All voxels that it returns are written by what the file says. What it has to guess it warns of.
+ * before it, and before warnings. All voxels that it returns are written by what the file says. What it has to guess it
+ * warns of.
  */
 #ifndef voxplex_io_Readers_h
 #define voxplex_io_Readers_h
 
 #include "FileError.h"
 #include "InputFile.h"
-#include "LabelTable.h"
-#include "MaskUnion.h"
+#include "ReadImage.h"
 #include "ScalarImage.h"
 
 #include <string>
@@ -23,42 +23,32 @@
 namespace voxplex::io
 {
 
-/** One image is read with each. */
-struct Reading
+/** One image is read with each, which collects what is said of it. */
+struct Reading : ImageNotes
 {
-  /** Where voxels go. */
+  ImageRequest Request;
+
+  /** Where voxels go; nothing in them is set. */
   VoxelAllocator Allocate;
-
-  /** Whether a header may name data files that are not in its folder or below. */
-  bool DataFilesAnywhere = false;
-
-  /** Of segments in several layers. */
-  Overlap Rule = Overlap::Smallest;
-
-  /** Above which probabilities are inside. */
-  double MaskThreshold = 0.5;
-
-  /** What was odd but could be read: a line each, without the name of the image. */
-  std::vector<std::string> Warnings;
-
-  ///@{
-  /** The same of what the file does not say, and the reader guessed: the spacing, or origin and directions. */
-  std::vector<std::string> SpacingGuesses;
-  std::vector<std::string> PlaceGuesses;
-  ///@}
 
   /** Whether the file says where the image lies. A format that never does has no guess to tell. */
   bool HasPlace = true;
 
   /** Of lengths; empty: millimetres. */
   std::string Unit;
-
-  /** Names and colours of labels, where the file has them. */
-  LabelTable Labels;
-
-  /** That voxels were read from. */
-  std::vector<std::string> Files;
 };
+
+using Reader = ScalarImage (*)(const std::string& path, Reading& reading);
+
+/** Calls a reader. @throws FileError with the reason alone, whatever the reader throws */
+ImageAnswer ReadBy(Reader reader, Reading reading);
+
+/** All formats, for the host: those that libraries read by ReadApart(). */
+ScalarImage ReadFileOrFolder(const std::string& path, Reading& reading);
+/** Calls ReadWithLibraries() in a process of its own. */
+ScalarImage ReadApart(const std::string& path, Reading& reading);
+/** DICOM, TIFF, VTK and folders of slices, for that process. */
+ScalarImage ReadWithLibraries(const std::string& path, Reading& reading);
 
 /** Where a header gives no spacing. */
 void WarnOfSpacing(Reading& reading);
@@ -111,12 +101,10 @@ ScalarImage ReadMetaImage(const std::string& path, Reading& reading);
  *
  * Segmentations, binary, fractional and label maps, give labels that are the numbers of their segments, with names and
  * colours. Frames that are left out are background.
- *
- * @param series UID, or how it begins; may be empty if there is one series in the folder
  */
 bool IsDICOM(const InputFile& file);
 ScalarImage ReadDICOMFile(const std::string& path, Reading& reading);
-ScalarImage ReadDICOMFolder(const std::string& path, const std::string& series, Reading& reading);
+ScalarImage ReadDICOMFolder(const std::string& path, Reading& reading);
 ///@}
 
 ///@{
@@ -158,9 +146,6 @@ ScalarImage ReadSlices(const std::vector<std::string>& files, Reading& reading);
  * VTK's own images: legacy .vtk with the dataset STRUCTURED_POINTS, and XML .vti, by VTK's readers.
  *
  * TakeVTKImage() says what they mean.
- *
- * VTK has one window for the messages of all threads. While a file is read, those of this thread are collected, and
- * nothing of them is shown in it. vtkLogger prints them nevertheless, unless its verbosity is off.
  */
 bool IsVTK(const InputFile& file);
 ScalarImage ReadVTK(const std::string& path, Reading& reading);

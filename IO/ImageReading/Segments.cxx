@@ -161,7 +161,7 @@ ScalarImage CombineLayers(const TextHeader& header, const ScalarImage& layers, R
     segments.AddLayer(layers, layer, numbers[layer]);
   }
   LeaveOutOtherTexts(reading.Labels, reading.Warnings);
-  return segments.Finish(reading.Rule, reading.Warnings);
+  return segments.Finish(reading.Request.Rule, reading.Warnings);
 }
 
 } // namespace voxplex::io

@@ -3,8 +3,7 @@
 #include "VTKFileStructure.h"
 
 #include "Fields.h"
-#include "FileError.h"
-#include "ScalarImage.h"
+#include "Readers.h"
 #include "Text.h"
 #include "XMLParser.h"
 
@@ -454,6 +453,26 @@ void CheckArrays(const InputFile& file, Structure& structure)
 }
 
 } // namespace
+
+std::string BeginningOfVTK(const InputFile& file)
+{
+  constexpr std::size_t enough = 4096;
+  return file.Beginning(enough);
+}
+
+bool IsLegacyVTK(const std::string& beginning)
+{
+  return beginning.starts_with("# vtk DataFile");
+}
+
+bool IsVTK(const InputFile& file)
+{
+  const std::string beginning = BeginningOfVTK(file);
+  const std::size_t first = beginning.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  return IsLegacyVTK(beginning) ||
+    (first != beginning.npos && beginning[first] == '<' &&
+      beginning.find("<VTKFile") != beginning.npos);
+}
 
 void CheckKindOfVTK(const std::string& kind, std::string_view wanted)
 {

@@ -21,6 +21,12 @@ class vtkXMLDataElement;
 namespace voxplex::io
 {
 
+///@{
+/** As much of a file as tells whether it is VTK's, and whether that is of the older kind, without XML. */
+std::string BeginningOfVTK(const InputFile& file);
+bool IsLegacyVTK(const std::string& beginning);
+///@}
+
 /** @throws FileError that says what the file holds, if that is not what is wanted */
 void CheckKindOfVTK(const std::string& kind, std::string_view wanted);
 

@@ -21,7 +21,7 @@ namespace voxplex::io
  * What the reading process writes as soon as it has started: a process that does not is another program or another
  * version. The document follows.
  */
-inline constexpr std::string_view Greeting = "voxplex image reader 4\n";
+inline constexpr std::string_view Greeting = "voxplex image reader 5\n";
 
 /** An image, or why there is none. Its voxels are at Offset of the memory that both processes share. */
 struct AnswerMessage

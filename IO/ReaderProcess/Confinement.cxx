@@ -25,15 +25,6 @@ namespace voxplex::io
 namespace
 {
 
-/** The folder in which an image's files are. */
-fs::path FolderOf(const fs::path& image)
-{
-  std::error_code ignored;
-  return fs::is_directory(image, ignored) ? image
-    : image.has_parent_path()             ? image.parent_path()
-                                          : fs::path(".");
-}
-
 /** In bytes: that of the image, or of all in it if it is a folder. */
 std::uint64_t BytesOf(const fs::path& image)
 {
@@ -76,7 +67,7 @@ void Allow(int ruleset, const fs::path& path, std::uint64_t access)
   }
 }
 
-void ForbidOtherFiles(const ImageRequest& request)
+void ForbidOtherFiles(const fs::path& image)
 {
   const auto version = static_cast<int>(
     syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION));
@@ -90,19 +81,12 @@ void ForbidOtherFiles(const ImageRequest& request)
   {
     return;
   }
-  if (request.DataFilesAnywhere)
-  {
-    Allow(ruleset, "/", LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR);
-  }
-  Allow(
-    ruleset, FolderOf(request.Path), LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR);
   std::error_code ignored;
-  if (fs::is_regular_file(request.Path, ignored)) // which may be a link to another folder
-  {
-    Allow(ruleset, request.Path, LANDLOCK_ACCESS_FS_READ_FILE);
-  }
+  Allow(ruleset, image,
+    LANDLOCK_ACCESS_FS_READ_FILE |
+      (fs::is_directory(image, ignored) ? LANDLOCK_ACCESS_FS_READ_DIR : 0));
   // A folder of slices may be one of links. They are read if they are DICOM, and by no name in another file.
-  for (const fs::directory_entry& entry : fs::directory_iterator(request.Path, ignored))
+  for (const fs::directory_entry& entry : fs::directory_iterator(image, ignored))
   {
     std::error_code failed;
     if (entry.is_symlink(failed) && entry.is_regular_file(failed))
@@ -117,15 +101,15 @@ void ForbidOtherFiles(const ImageRequest& request)
 
 #else
 
-void ForbidOtherFiles(const ImageRequest&) {}
+void ForbidOtherFiles(const fs::path&) {}
 
 #endif
 
 } // namespace
 
-void Confine(const ImageRequest& request)
+void Confine(const fs::path& image)
 {
-  const std::uint64_t size = BytesOf(request.Path);
+  const std::uint64_t size = BytesOf(image);
   if (!HasSanitizer)
   {
     const std::uint64_t memory = (512ULL << 20) + 16 * size;
@@ -136,7 +120,7 @@ void Confine(const ImageRequest& request)
   Limit(RLIMIT_CPU, 60 + size / bytesInASecond, anHour);
   Limit(RLIMIT_CORE, 0, 0);
   Limit(RLIMIT_FSIZE, RLIM_INFINITY, RLIM_INFINITY); // shared memory counts as a file, and is none
-  ForbidOtherFiles(request);
+  ForbidOtherFiles(image);
 }
 
 void AllowTimeFor(std::uint64_t bytesOfVoxels)

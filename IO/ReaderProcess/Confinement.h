@@ -7,7 +7,8 @@
 #ifndef voxplex_io_Confinement_h
 #define voxplex_io_Confinement_h
 
-#include "ImageReading/ReadImage.h"
+#include <cstdint>
+#include <filesystem>
 
 namespace voxplex::io
 {
@@ -23,17 +24,16 @@ inline constexpr bool HasSanitizer = false;
 
 /**
  * For the rest of its life this process
- * - may read what is in the folder of the image and below, and no other file, and write none (Linux 5.13 and newer with
- *   Landlock; elsewhere it may do what its user may);
+ * - may read the image, and no other file, and write none (Linux 5.13 and newer with Landlock; elsewhere it may do what
+ *   its user may);
  * - may take 512 MiB of memory and 16 times the size of the image, beside that of the voxels that it gives away;
  * - may compute for a minute and a second for each two megabytes of the image, or as long as AllowTimeFor() says, at
  *   most an hour.
  *
- * If the image is a folder, all files in it count, and what links in it lead to may be read. Data files that a header
- * names do not count: voxplex reads them itself, straight into the voxels. Builds with sanitizers have no limit of
- * memory.
+ * If the image is a folder, that is all in it and below, and what links in it lead to; its size is that of the files in
+ * it. Builds with sanitizers have no limit of memory.
  */
-void Confine(const ImageRequest& request);
+void Confine(const std::filesystem::path& image);
 
 /** Before voxels are read: a second more for each ten megabytes of them. A claim of them has been compared with the files. */
 void AllowTimeFor(std::uint64_t bytesOfVoxels);

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file ReaderMain.cxx
- * @brief The program that reads one image for another process, which lives whatever the image does here.
+ * @brief The program that reads one image with a library, for another process, which lives whatever the image does here.
  *
- *     voxplexImageReader PATH SERIES ANYWHERE RULE THRESHOLD
+ *     voxplexImageReader PATH SERIES RULE THRESHOLD
  *
  * Standard output receives the greeting and the answer (AnswerMessage.h). Descriptor 3 is the memory for voxels.
  */
 #include "AnswerMessage.h"
 #include "Confinement.h"
-#include "FileError.h"
+#include "ImageReading/Readers.h"
 #include "SharedMemory.h"
 #include "Text.h"
 
@@ -48,15 +48,17 @@ bool Write(std::string_view text)
 AnswerMessage Read(const ImageRequest& request)
 {
   SharedMemoryWriter memory(MemoryDescriptor);
+  Reading reading;
+  reading.Request = request;
+  reading.Allocate = [&memory](std::size_t bytes)
+  {
+    AllowTimeFor(bytes);
+    return memory.Allocate(bytes);
+  };
   AnswerMessage message;
   try
   {
-    message.Answer = ReadImageHere(request,
-      [&memory](std::size_t bytes)
-      {
-        AllowTimeFor(bytes);
-        return memory.Allocate(bytes);
-      });
+    message.Answer = ReadBy(ReadWithLibraries, std::move(reading));
     message.Offset = memory.OffsetOf(message.Answer.Image.Scalars.get());
   }
   catch (const FileError& error)
@@ -70,7 +72,7 @@ AnswerMessage Read(const ImageRequest& request)
 
 int main(int argc, char** argv)
 {
-  if (argc != 6)
+  if (argc != 5)
   {
     return 2;
   }
@@ -78,14 +80,14 @@ int main(int argc, char** argv)
   prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
   std::signal(SIGXFSZ, SIG_IGN); // shared memory counts as a file: no memory is a message
-  const ImageRequest request{ argv[1], argv[2], std::strcmp(argv[3], "1") == 0,
-    std::strcmp(argv[4], "1") == 0 ? Overlap::Order : Overlap::Smallest,
-    ToNumber<double>(argv[5]).value_or(0.5) };
+  const ImageRequest request{ argv[1], argv[2], false,
+    std::strcmp(argv[3], "1") == 0 ? Overlap::Order : Overlap::Smallest,
+    ToNumber<double>(argv[4]).value_or(0.5) };
   if (!Write(Greeting))
   {
     return 1;
   }
-  Confine(request);
+  Confine(request.Path);
   const AnswerMessage message = Read(request);
   const bool isWritten = Write(ToText(message));
   _exit(isWritten ? 0 : 1); // no library's destructors

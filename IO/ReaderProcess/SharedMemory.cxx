@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SharedMemory.h"
 
+#include "ImageReading/VoxelMemory.h"
+
 #include <cstdio>
 #include <new>
 
@@ -18,11 +20,6 @@ namespace
 std::uint64_t PageSize()
 {
   return static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
-
-std::uint64_t MemoryOfMachine()
-{
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * PageSize();
 }
 
 /** Maps whole pages around what is asked for. */

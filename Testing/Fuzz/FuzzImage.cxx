@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-/** @file FuzzImage.cxx @brief The readers of images, in this process, on files with the extension
+/** @file FuzzImage.cxx @brief VOXPLEX_FUZZ_READER, in this process, on files with the extension
  * VOXPLEX_FUZZ_EXTENSION. */
 #include "FileError.h"
 #include "Fuzzing.h"
-#include "ImageReading/ReadImage.h"
+#include "ImageReading/Readers.h"
 
 #include <array>
 #include <cstddef>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 namespace fuzz = voxplex::fuzz;
 
@@ -36,10 +37,13 @@ std::shared_ptr<void> Allocate(std::size_t bytes, std::byte content)
 /** Nothing if the file is refused. */
 std::shared_ptr<void> Read(const std::string& path, std::byte content, std::size_t& bytes)
 {
+  voxplex::io::Reading reading;
+  reading.Request.Path = path;
+  reading.Allocate = [content](std::size_t size) { return Allocate(size, content); };
   try
   {
-    const voxplex::io::ImageAnswer answer = voxplex::io::ReadImageHere(
-      { path, "", false }, [content](std::size_t size) { return Allocate(size, content); });
+    const voxplex::io::ImageAnswer answer =
+      voxplex::io::ReadBy(voxplex::io::VOXPLEX_FUZZ_READER, std::move(reading));
     bytes = answer.Image.NumberOfVoxels() * static_cast<std::size_t>(answer.Image.Frames) *
       voxplex::SizeOf(answer.Image.Type);
     if (bytes == 0)
@@ -50,7 +54,7 @@ std::shared_ptr<void> Read(const std::string& path, std::byte content, std::size
   }
   catch (const voxplex::io::FileError& error)
   {
-    fuzz::CheckRefusal(error.what(), path);
+    fuzz::CheckRefusal("cannot read '" + path + "': " + error.what(), path);
     return nullptr;
   }
 }

@@ -7,8 +7,6 @@ The rows are in the folder matrix. To look at the files of some:
 
     TestReaderMatrix.py --write FOLDER PATTERN
 
-One row in ten is read in a process of its own, as users read; the others in that of the reader, which saves the start.
-
 Each two values of two properties (types, orders of bytes, encodings, axes ...) occur in some row. With
 VOXPLEX_MATRIX_STRENGTH=3 in the environment each three of three do, in half as many rows more.
 """
@@ -36,23 +34,20 @@ class ReaderMatrix(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.hosts = [Host(apart=True)] + [Host(apart=False)] * 9
+        cls.host = Host()
         cls.counts = {name: Counter() for name in formats_of(ROWS)}
 
     @classmethod
     def tearDownClass(cls):
-        for host in cls.hosts[:2]:
-            host.stop()
-        print("\n" + table(cls.counts) + "\nloads of the reader: %d and %d" % tuple(h.starts for h in cls.hosts[:2]),
-              flush=True)
+        cls.host.stop()
+        print("\n%s\nloads of the reader: %d" % (table(cls.counts), cls.host.starts), flush=True)
 
     def judge(self, format_name):
         failures = []
-        for number, row in enumerate(ROWS):
+        for row in ROWS:
             if row.format == format_name:
-                host = self.hosts[number % len(self.hosts)]
                 with tempfile.TemporaryDirectory(prefix="voxplex-test-") as folder:
-                    outcome, difference = row.judge(host.read(row.files.write(folder)))
+                    outcome, difference = row.judge(self.host.read(row.files.write(folder)))
                 self.counts[format_name][outcome or "failed"] += 1
                 if difference:
                     failures.append("%s: %s: %s" % (row.format, row.name, difference.replace(folder + "/", "")))

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Images are read by a process of their own, and by nothing else."""
+"""What libraries read is read by a process of its own, and by nothing else; all else in the host."""
 import os
 import resource
 import shutil
@@ -12,11 +12,14 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 import images
 import voxplex
 from iotesting import FolderTestCase
+from matrix import SOUND
 
 READER = Path(voxplex.__file__).parents[4] / "lib" / "voxplex" / "voxplexImageReader"
 ARRAY = images.two_labels(12, 4.0)
@@ -27,10 +30,23 @@ def voxels(image):
     return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(ARRAY.shape)
 
 
+def write_vti(path):
+    image = vtkImageData()
+    image.SetDimensions(ARRAY.shape[::-1])
+    image.SetOrigin(GEOMETRY.origin)
+    image.SetSpacing(GEOMETRY.spacing)
+    image.GetPointData().SetScalars(numpy_to_vtk(ARRAY.ravel(), deep=True))
+    writer = vtkXMLImageDataWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(image)
+    assert writer.Write()
+    return str(path)
+
+
 class ReadingProcess(FolderTestCase):
     def setUp(self):
         super().setUp()
-        self.path = images.write_nrrd(self.folder / "i.nrrd", ARRAY, GEOMETRY)
+        self.path = write_vti(self.folder / "i.vti")
 
     def python(self, code, *arguments, **options):
         """Runs code in an interpreter of its own."""
@@ -42,17 +58,17 @@ class ReadingProcess(FolderTestCase):
         memory = os.memfd_create("voxels")
         if memory != 3:
             os.dup2(memory, 3)
-        done = subprocess.run([READER, self.path, "", "0", "0", "0.5"], capture_output=True, pass_fds=(3,), timeout=60)
+        done = subprocess.run([READER, self.path, "", "0", "0.5"], capture_output=True, pass_fds=(3,), timeout=60)
         greeting, answer = done.stdout.decode().split("\n", 1)
-        self.assertEqual(greeting, "voxplex image reader 4")
+        self.assertEqual(greeting, "voxplex image reader 5")
         self.assertIn('"spacing":[1.5,0.75,0.125]', answer)
         self.assertEqual((done.returncode, done.stderr), (0, b""))
 
     def test_processes_end(self):
         """None is left, whatever came of it; the host's own are not touched."""
         own = subprocess.Popen(["sleep", "60"])
-        (self.folder / "damaged.nrrd").write_bytes(Path(self.path).read_bytes()[:-10])
-        for path in (self.path, self.folder / "damaged.nrrd", self.folder / "none.nrrd"):
+        (self.folder / "damaged.vti").write_bytes(Path(self.path).read_bytes()[:-10])
+        for path in (self.path, self.folder / "damaged.vti", self.folder / "none.vti"):
             self.reader(path)
         self.assertIsNone(own.poll())
         own.kill()
@@ -75,19 +91,25 @@ class ReadingProcess(FolderTestCase):
             with self.subTest(count):
                 resource.setrlimit(resource.RLIMIT_NOFILE, (free[count], limits[1]))
                 try:
-                    self.refused("cannot read '.*i.nrrd': the program that reads images, '.*voxplexImageReader', "
+                    self.refused("cannot read '.*i.vti': the program that reads images, '.*voxplexImageReader', "
                                  "cannot be started: Too many open files", self.path)
                 finally:
                     resource.setrlimit(resource.RLIMIT_NOFILE, limits)
 
     def test_process_that_ends_before_its_greeting(self):
-        """A hostile file could want that the host reads it instead."""
+        """A hostile file could want that the host reads it instead. Formats that no library reads do not need it."""
         (self.folder / "libtiff.so.6").write_bytes(b"no library")
         before = os.environ.get("LD_LIBRARY_PATH")
         os.environ["LD_LIBRARY_PATH"] = str(self.folder)
         try:
-            self.refused("cannot read '.*i.nrrd': the program that reads images, '.*voxplexImageReader', does not answer, "
-                         "and ended with status 127: .*install Voxplex again", self.path)
+            for number, sound in enumerate(SOUND):
+                path = sound.files.write(self.folder / str(number))
+                with self.subTest(path.name):
+                    if sound.format in ("VTK legacy", "VTK XML"):
+                        self.refused("cannot read '.*': the program that reads images, '.*voxplexImageReader', does not answer, "
+                                     "and ended with status 127: .*install Voxplex again", path)
+                    else:
+                        self.assertEqual(self.reader(path).GetErrorMessage(), "")
         finally:
             os.environ.pop("LD_LIBRARY_PATH")
             if before is not None:
@@ -97,7 +119,7 @@ class ReadingProcess(FolderTestCase):
         """Voxels are in shared memory, which counts as a file. A limit that may be raised is no obstacle."""
         code = ("import sys, voxplex; reader = voxplex.vtkSegmentationReader(); reader.SetFileName(sys.argv[1]); reader.Update()\n"
                 "print(reader.GetErrorMessage())")
-        for hard, expected in ((resource.RLIM_INFINITY, ""), (512, "cannot read '.*i.nrrd': it does not fit into memory")):
+        for hard, expected in ((resource.RLIM_INFINITY, ""), (512, "cannot read '.*i.vti': it does not fit into memory")):
             with self.subTest(hard):
                 done = self.python(code, self.path, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (512, hard)))
                 self.assertRegex(done.stdout, "^%s\n$" % expected)
@@ -135,7 +157,8 @@ class ReadingProcess(FolderTestCase):
         data = Path(text).read_bytes().split(b"\n\n")[0]
         Path(text).write_bytes(data + b"\n\n" + " ".join(map(str, ARRAY.ravel() + 0.5)).encode())
         meta = images.write_metaimage(self.folder / "i.mha", ARRAY, GEOMETRY)
-        for path in (self.path, text, meta, images.write_nifti(self.folder / "i.nii", ARRAY, GEOMETRY)):
+        raw = images.write_nrrd(self.folder / "i.nrrd", ARRAY, GEOMETRY)
+        for path in (self.path, raw, text, meta, images.write_nifti(self.folder / "i.nii", ARRAY, GEOMETRY)):
             with self.subTest(path=path):
                 done = self.python(code % str(path), env={**os.environ, "LOCPATH": str(self.folder)})
                 self.assertEqual(done.stderr, "")

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program that reads images, built with sanitizers, on damaged and hostile files: they find nothing.
+"""Both programs that read images, built with sanitizers, on damaged and hostile files: they find nothing.
 
-    TestSanitizedReader.py PROGRAM
+    TestSanitizedReader.py VOXPLEX_IMAGE_READER VOXPLEX
 
-The program runs alone, without the process that it reads for. What it answers is judged by the other tests.
+The first reads what libraries read, here without the process that it reads for; the second all else. What they answer is
+judged by the other tests.
 """
 import os
 import subprocess
@@ -26,7 +27,7 @@ HOSTILE = TESTING / "../../shared/data/hostile"
 COUNT = 8  # of each sound file
 EACH = 8  # of the rows: the other tests read them all
 TIMEOUT = 60  # seconds; the sanitizers are slow where much memory is claimed
-PROGRAM = sys.argv.pop(1)
+READER, PROGRAM = sys.argv.pop(1), sys.argv.pop(1)
 
 
 def sound_after_seeds(folder):
@@ -41,14 +42,15 @@ def found(path):
     """What the sanitizers say of reading a file; None if they say nothing."""
     memory = os.memfd_create("voxels")
     try:
-        done = subprocess.run([PROGRAM, path, "", "0", "0", "0.5"], capture_output=True, timeout=TIMEOUT,
-                              preexec_fn=lambda: os.dup2(memory, 3), pass_fds=[3])
+        for command in ([READER, path, "", "0", "0.5"], [PROGRAM, "image", path]):
+            done = subprocess.run(command, capture_output=True, timeout=TIMEOUT, preexec_fn=lambda: os.dup2(memory, 3), pass_fds=[3])
+            is_refused = command[0] == PROGRAM and done.returncode == 1
+            if (done.returncode and not is_refused) or b"Sanitizer" in done.stderr or b"runtime error" in done.stderr:
+                return "%s: exit status %d: %s" % (command[0], done.returncode, done.stderr.decode(errors="replace")[:2000])
     except subprocess.TimeoutExpired:
         return "hangs for %d s" % TIMEOUT
     finally:
         os.close(memory)
-    if done.returncode or b"Sanitizer" in done.stderr or b"runtime error" in done.stderr:
-        return "exit status %d: %s" % (done.returncode, done.stderr.decode(errors="replace")[:2000])
     return None
 
 

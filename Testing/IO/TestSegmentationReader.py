@@ -238,7 +238,7 @@ class Errors(FolderTestCase):
         self.assertEqual((reader.GetWarning(1), reader.GetWarning(-1)), ("", ""))
 
     def test_nothing_is_printed(self):
-        """Not even by a library in the reading process; standard error of this one is never touched."""
+        """Standard error is never touched."""
         text = self.folder / "stderr"
         kept = os.dup(2)
         descriptor = os.open(text, os.O_WRONLY | os.O_CREAT)

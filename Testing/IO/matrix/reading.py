@@ -31,15 +31,10 @@ class Result:
 
 
 class Host:
-    """A process that has loaded the reader. It stands for Python, ParaView or 3D Slicer.
+    """A process that has loaded the reader. It stands for Python, ParaView or 3D Slicer."""
 
-    apart: whether images are read in processes of their own, as they are unless the size of files is limited. In this one
-        VTK may print.
-    """
-
-    def __init__(self, timeout=10, apart=True):
+    def __init__(self, timeout=10):
         self._timeout = timeout
-        self._apart = apart
         self._process = None
         self.starts = 0
 
@@ -80,7 +75,7 @@ class Host:
         context = multiprocessing.get_context("fork")
         self._pipe, theirs = context.Pipe()
         self._printed = tempfile.TemporaryFile()
-        self._process = context.Process(target=_serve, args=(theirs, self._pipe, self._printed.fileno(), self._apart))
+        self._process = context.Process(target=_serve, args=(theirs, self._pipe, self._printed.fileno()))
         self._process.start()
         theirs.close()
         self.starts += 1
@@ -88,11 +83,9 @@ class Host:
             raise RuntimeError("the reader cannot be loaded")
 
 
-def _serve(pipe, other_end, printed, apart):
+def _serve(pipe, other_end, printed):
     other_end.close()
     os.setsid()
-    if not apart:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 40, resource.RLIM_INFINITY))
     import voxplex
     from vtkmodules.vtkCommonCore import vtkObject
     vtkObject.GlobalWarningDisplayOff()
@@ -107,7 +100,7 @@ def _serve(pipe, other_end, printed, apart):
         Path("/proc/self/clear_refs").write_text("5")  # the peak begins anew
         result = _read(voxplex, path)
         result.resident = _resident()
-        if os.fstat(printed).st_size and apart:
+        if os.fstat(printed).st_size:
             result.fault = "prints: " + os.pread(printed, MOST_PRINTED, 0).decode(errors="replace")
             os.ftruncate(printed, 0)
             os.lseek(printed, 0, os.SEEK_SET)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ImageReading/ReadImage.h"
+#include "ImageReading/Readers.h"
 
 #include "AnswerMessage.h"
 #include "FileError.h"
@@ -168,12 +168,11 @@ public:
     const SpawnSettings settings(output.Get(), memory.Get());
     std::string path = request.Path;
     std::string series = request.Series;
-    std::string anywhere = request.DataFilesAnywhere ? "1" : "0";
     std::string rule = request.Rule == Overlap::Order ? "1" : "0";
     std::array<char, 32> threshold{}; // more than a number takes
     std::to_chars(threshold.begin(), threshold.end() - 1, request.MaskThreshold);
-    const std::array<char*, 7> arguments{ this->Reader.data(), path.data(), series.data(),
-      anywhere.data(), rule.data(), threshold.data(), nullptr };
+    const std::array<char*, 6> arguments{ this->Reader.data(), path.data(), series.data(),
+      rule.data(), threshold.data(), nullptr };
     errno = posix_spawn(&this->Id, this->Reader.c_str(), &settings.Actions, &settings.Attributes,
       arguments.data(), Environment());
     this->RefuseIfNoStart(errno != 0);
@@ -248,10 +247,24 @@ private:
   pid_t Id = -1;
 };
 
-/** What the process says, and the voxels that it leaves in the shared memory. */
-AnswerMessage ReadApart(const ImageRequest& request)
+/** What the process said, if it is sound. */
+AnswerMessage Parse(std::string_view text, int memory)
 {
-  ReaderProcess process(request);
+  try
+  {
+    return ParseAnswer(text, FixSharedMemory(memory));
+  }
+  catch (const std::exception&)
+  {
+    Refuse("the process that read it gave no sound answer: it is damaged, or made to do harm");
+  }
+}
+
+} // namespace
+
+ScalarImage ReadApart(const std::string&, Reading& reading)
+{
+  ReaderProcess process(reading.Request);
   std::string text;
   const bool isComplete = process.Receive(text);
   const int status = isComplete ? process.Wait() : SIGKILL;
@@ -266,46 +279,20 @@ AnswerMessage ReadApart(const ImageRequest& request)
     ": it is damaged, lacks a library, or is of another version; start it in a shell to see why, "
     "or install Voxplex again");
   RefuseIf(status != 0, "its reading ended with ", end, ": it is damaged, or made to do harm");
-  AnswerMessage message = ParseAnswer(
-    std::string_view(text).substr(Greeting.size()), FixSharedMemory(process.MemoryDescriptor()));
-  ScalarImage& image = message.Answer.Image;
-  if (message.Error.empty())
-  {
-    const std::size_t bytes =
-      image.NumberOfVoxels() * static_cast<std::size_t>(image.Frames) * SizeOf(image.Type);
-    image.Scalars = MapSharedMemory(process.MemoryDescriptor(), message.Offset, bytes);
-  }
-  return message;
-}
-
-} // namespace
-
-ImageAnswer ReadImage(const ImageRequest& request)
-{
-  const std::string start = "cannot read '" + request.Path + "': ";
-  AnswerMessage message;
-  try
-  {
-    message = ReadApart(request);
-  }
-  catch (const FileError& error)
-  {
-    Refuse(start, error.what());
-  }
-  catch (const std::bad_alloc&)
-  {
-    Refuse(start, "it does not fit into memory");
-  }
-  catch (const std::exception&)
-  {
-    Refuse(
-      start, "the process that read it gave no sound answer: it is damaged, or made to do harm");
-  }
-  if (!message.Error.empty()) // which has the file's name
+  AnswerMessage message =
+    Parse(std::string_view(text).substr(Greeting.size()), process.MemoryDescriptor());
+  if (!message.Error.empty())
   {
     throw FileError(message.Error);
   }
-  return std::move(message.Answer);
+  ScalarImage& image = message.Answer.Image;
+  const std::size_t bytes =
+    image.NumberOfVoxels() * static_cast<std::size_t>(image.Frames) * SizeOf(image.Type);
+  image.Scalars = MapSharedMemory(process.MemoryDescriptor(), message.Offset, bytes);
+  static_cast<ImageNotes&>(reading) = std::move(message.Answer);
+  reading.HasPlace = image.HasPlace;
+  reading.Unit = image.Unit;
+  return image;
 }
 
 } // namespace voxplex::io

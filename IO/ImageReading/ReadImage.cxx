@@ -3,13 +3,12 @@
 #include "ReadImage.h"
 
 #include "Readers.h"
-#include "Text.h"
+#include "VoxelMemory.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <new>
 #include <string_view>
 #include <vector>
 
@@ -23,15 +22,15 @@ namespace
 struct Format
 {
   bool (*Is)(const InputFile& file);
-  ScalarImage (*Read)(const std::string& path, Reading& reading);
+  Reader Read; ///< in this process, or apart: where a library reads it
 };
 
 /** By what is surest in the first bytes of a file. MRC has three letters there, which may be in a comment of others. */
 constexpr std::array<Format, 9> Formats{ {
   { IsNRRD, ReadNRRD },
-  { IsDICOM, ReadDICOMFile },
-  { IsTIFF, ReadTIFF },
-  { IsVTK, ReadVTK },
+  { IsDICOM, ReadApart },
+  { IsTIFF, ReadApart },
+  { IsVTK, ReadApart },
   { IsGIPL, ReadGIPL },
   { IsNIfTI, ReadNIfTI },
   { IsMetaImage, ReadMetaImage },
@@ -119,8 +118,26 @@ bool AreClasses(const ScalarImage& image)
   return (areApart || addUpToOne) && std::count(isUsed.begin(), isUsed.end(), true) > 1;
 }
 
-ScalarImage ReadFile(const std::string& path, Reading& reading)
+} // namespace
+
+ScalarImage ReadFileOrFolder(const std::string& path, Reading& reading)
 {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  RefuseIf(!fs::exists(status), "there is no such file or folder");
+  if (fs::is_directory(status))
+  {
+    for (const char* const name : { "zarr.json", ".zgroup", ".zarray" })
+    {
+      RefuseIf(fs::exists(fs::path(path) / name, ignored),
+        "it is a Zarr folder: open the array of one resolution in Python (zarr.open), and give it "
+        "to voxplex.mesh() with its spacing");
+    }
+    return ReadApart(path, reading);
+  }
+  RefuseIf(!fs::is_regular_file(status), "it is neither a regular file nor a folder");
+  RefuseIf(!reading.Request.Series.empty(),
+    "SetSeriesUID() needs a folder with DICOM files, and this is a file");
   const InputFile file(path);
   RefuseIf(file.Size() == 0, "the file is empty");
   const auto format = std::find_if(
@@ -132,88 +149,36 @@ ScalarImage ReadFile(const std::string& path, Reading& reading)
   return format->Read(path, reading);
 }
 
-ScalarImage ReadFileOrFolder(const ImageRequest& request, Reading& reading)
+ImageAnswer ReadImage(const ImageRequest& request)
 {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(request.Path, ignored);
-  RefuseIf(!fs::exists(status), "there is no such file or folder");
-  if (fs::is_directory(status))
-  {
-    for (const char* const name : { "zarr.json", ".zgroup", ".zarray" })
-    {
-      RefuseIf(fs::exists(fs::path(request.Path) / name, ignored),
-        "it is a Zarr folder: open the array of one resolution in Python (zarr.open), and give it "
-        "to voxplex.mesh() with its spacing");
-    }
-    const std::vector<std::string> slices =
-      request.Series.empty() ? ListSlices(request.Path) : std::vector<std::string>();
-    return slices.empty() ? ReadDICOMFolder(request.Path, request.Series, reading)
-                          : ReadSlices(slices, reading);
-  }
-  RefuseIf(!fs::is_regular_file(status), "it is neither a regular file nor a folder");
-  RefuseIf(
-    !request.Series.empty(), "SetSeriesUID() needs a folder with DICOM files, and this is a file");
-  return ReadFile(request.Path, reading);
-}
-
-std::vector<std::string> Of(const std::string& path, std::vector<std::string> warnings)
-{
-  for (std::string& warning : warnings)
-  {
-    warning.insert(0, path + ": ");
-  }
-  return warnings;
-}
-
-} // namespace
-
-void WarnOfSpacing(Reading& reading)
-{
-  reading.SpacingGuesses.push_back(
-    "its header gives no spacing of the voxels, which is taken to be 1; set it with SetSpacing()");
-}
-
-ImageAnswer ReadImageHere(const ImageRequest& request, const VoxelAllocator& allocate)
-{
-  const std::string start = "cannot read '" + request.Path + "': ";
   Reading reading;
-  reading.Allocate = allocate;
-  reading.DataFilesAnywhere = request.DataFilesAnywhere;
-  reading.Rule = request.Rule;
-  reading.MaskThreshold = request.MaskThreshold;
+  reading.Request = request;
+  reading.Allocate = NewVoxels;
   ImageAnswer answer;
   try
   {
-    answer.Image = ReadFileOrFolder(request, reading);
-    if (answer.Image.Frames > 1 &&
-      Dispatch(answer.Image.Type,
-        [&answer](auto zero) { return AreClasses<decltype(zero)>(answer.Image); }))
-    {
-      reading.Warnings.push_back(
-        "its frames are taken for times, but look like classes (one-hot, or probabilities): if "
-        "they are, make a label image of them first (numpy.argmax along the axis of frames)");
-    }
+    answer = ReadBy(ReadFileOrFolder, std::move(reading));
   }
   catch (const FileError& error)
   {
-    Refuse(start, error.what());
+    Refuse("cannot read '", request.Path, "': ", error.what());
   }
-  catch (const std::bad_alloc&)
+  if (answer.Image.Frames > 1 &&
+    Dispatch(
+      answer.Image.Type, [&answer](auto zero) { return AreClasses<decltype(zero)>(answer.Image); }))
   {
-    Refuse(start, "it does not fit into memory");
+    answer.Warnings.push_back(
+      "its frames are taken for times, but look like classes (one-hot, or probabilities): if they "
+      "are, make a label image of them first (numpy.argmax along the axis of frames)");
   }
-  catch (const std::exception& error)
+  for (std::vector<std::string>* const list :
+    { &answer.Warnings, &answer.SpacingGuesses, &answer.PlaceGuesses })
   {
-    Refuse(start, "it is damaged (", error.what(), ")");
+    for (std::string& warning : *list)
+    {
+      warning.insert(0, request.Path + ": ");
+    }
   }
-  answer.Labels = std::move(reading.Labels);
-  answer.Files = std::move(reading.Files);
-  answer.Image.HasPlace = reading.HasPlace && reading.PlaceGuesses.empty();
-  answer.Image.HasSpacing = reading.SpacingGuesses.empty();
-  answer.Image.Unit = reading.Unit;
-  answer.Warnings = Of(request.Path, reading.Warnings);
-  answer.SpacingGuesses = Of(request.Path, reading.SpacingGuesses);
-  answer.PlaceGuesses = Of(request.Path, reading.PlaceGuesses);
   return answer;
 }
 
