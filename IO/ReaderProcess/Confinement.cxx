@@ -3,19 +3,30 @@
 #include "Confinement.h"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #if defined(__linux__)
+#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #endif
 #if defined(__linux__) && __has_include(<linux/landlock.h>)
 #include <linux/landlock.h>
+#endif
+#if defined(__linux__) && (defined(__x86_64__) || defined(__aarch64__))
+#define VOXPLEX_FILTERS_CALLS
+#include <linux/audit.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #endif
 
 namespace fs = std::filesystem;
@@ -105,6 +116,90 @@ void ForbidOtherFiles(const fs::path&) {}
 
 #endif
 
+#if defined(VOXPLEX_FILTERS_CALLS)
+
+#if defined(__x86_64__)
+constexpr std::uint32_t Architecture = AUDIT_ARCH_X86_64;
+#else
+constexpr std::uint32_t Architecture = AUDIT_ARCH_AARCH64;
+#endif
+
+constexpr std::uint32_t Denied = SECCOMP_RET_ERRNO | EPERM;
+constexpr std::uint32_t Unknown = SECCOMP_RET_ERRNO | ENOSYS;
+
+/** What no reader calls. */
+constexpr auto Forbidden = std::to_array<std::uint32_t>({
+#if defined(__x86_64__) // where others have fewer calls
+  SYS_fork, SYS_vfork, SYS_chmod, SYS_chown, SYS_lchown, SYS_utime, SYS_utimes, SYS_futimesat,
+#endif
+    // other programs and processes
+    SYS_execve, SYS_execveat, SYS_tkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_ptrace,
+    SYS_process_vm_readv, SYS_process_vm_writev, SYS_kcmp, SYS_shmget, SYS_shmat, SYS_semget,
+    SYS_msgget, SYS_mq_open,
+    // the network
+    SYS_socket, SYS_socketpair, SYS_connect, SYS_bind, SYS_listen, SYS_accept, SYS_accept4,
+    SYS_sendto, SYS_sendmsg, SYS_sendmmsg,
+    // files, as far as Landlock does not keep from them
+    SYS_truncate, SYS_fchmod, SYS_fchmodat, SYS_fchown, SYS_fchownat, SYS_utimensat, SYS_setxattr,
+    SYS_lsetxattr, SYS_fsetxattr, SYS_removexattr, SYS_lremovexattr, SYS_fremovexattr,
+    SYS_open_by_handle_at,
+    // the system
+    SYS_mount, SYS_umount2, SYS_pivot_root, SYS_chroot, SYS_setns, SYS_unshare, SYS_keyctl,
+    SYS_add_key, SYS_request_key, SYS_bpf, SYS_perf_event_open, SYS_userfaultfd, SYS_init_module,
+    SYS_finit_module, SYS_delete_module, SYS_kexec_load
+});
+
+/** A thread may be started, by clone(): of clone3(), whose flags a filter cannot see, libraries learn that it is not there. */
+void ForbidSystemCalls()
+{
+  constexpr std::uint32_t firstNew = 424; // of Linux 5.1, as on all architectures
+  const auto self = static_cast<std::uint32_t>(getpid());
+  std::vector<sock_filter> filter;
+  const auto add = [&filter](unsigned code, std::uint32_t value, unsigned char ifTrue = 0,
+                     unsigned char ifFalse = 0) {
+    filter.push_back({ static_cast<std::uint16_t>(code), ifTrue, ifFalse, value });
+  };
+  const auto answer = [&add](std::uint32_t action) { add(BPF_RET | BPF_K, action); };
+  const auto load = [&add](std::size_t offset)
+  { add(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)); };
+  // The call is allowed if the test of its first argument holds. The lower half comes first on both architectures.
+  const auto allowOnly = [&](std::uint32_t call, unsigned test, std::uint32_t value)
+  {
+    add(BPF_JMP | BPF_JEQ | BPF_K, call, 0, 4);
+    load(offsetof(seccomp_data, args));
+    add(BPF_JMP | test | BPF_K, value, 0, 1);
+    answer(SECCOMP_RET_ALLOW);
+    answer(Denied);
+  };
+
+  load(offsetof(seccomp_data, arch));
+  add(BPF_JMP | BPF_JEQ | BPF_K, Architecture, 1, 0);
+  answer(Denied);
+  load(offsetof(seccomp_data, nr));
+  add(BPF_JMP | BPF_JGE | BPF_K, firstNew, 0, 1); // as on older systems; on x86, those of x32, too
+  answer(Unknown);
+  allowOnly(SYS_clone, BPF_JSET, CLONE_THREAD);
+  allowOnly(SYS_kill, BPF_JEQ, self);
+  allowOnly(SYS_tgkill, BPF_JEQ, self); // abort()
+  allowOnly(SYS_prlimit64, BPF_JEQ, 0);
+  for (const std::uint32_t call : Forbidden)
+  {
+    add(BPF_JMP | BPF_JEQ | BPF_K, call, 0, 1);
+    answer(Denied);
+  }
+  answer(SECCOMP_RET_ALLOW);
+
+  const sock_fprog program{ static_cast<unsigned short>(filter.size()), filter.data() };
+  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
+}
+
+#else
+
+void ForbidSystemCalls() {}
+
+#endif
+
 } // namespace
 
 void Confine(const fs::path& image)
@@ -121,6 +216,7 @@ void Confine(const fs::path& image)
   Limit(RLIMIT_CORE, 0, 0);
   Limit(RLIMIT_FSIZE, RLIM_INFINITY, RLIM_INFINITY); // shared memory counts as a file, and is none
   ForbidOtherFiles(image);
+  ForbidSystemCalls();
 }
 
 void AllowTimeFor(std::uint64_t bytesOfVoxels)

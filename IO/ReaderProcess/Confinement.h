@@ -26,6 +26,9 @@ inline constexpr bool HasSanitizer = false;
  * For the rest of its life this process
  * - may read the image, and no other file, and write none (Linux 5.13 and newer with Landlock; elsewhere it may do what
  *   its user may);
+ * - starts no other process and none of its calls reaches one, nor the network, keys, mounts and what else of the system
+ *   no reader needs: they fail with EPERM, and those that Linux has got since 5.1 with ENOSYS (seccomp on x86-64 and
+ *   aarch64). Threads may be started;
  * - may take 512 MiB of memory and 16 times the size of the image, beside that of the voxels that it gives away;
  * - may compute for a minute and a second for each two megabytes of the image, or as long as AllowTimeFor() says, at
  *   most an hour.
