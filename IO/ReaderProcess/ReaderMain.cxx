@@ -77,7 +77,7 @@ int main(int argc, char** argv)
     return 2;
   }
 #if defined(__linux__)
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  prctl(PR_SET_PDEATHSIG, SIGKILL); // if the host has ended before, nobody takes the greeting
 #endif
   std::signal(SIGXFSZ, SIG_IGN); // shared memory counts as a file: no memory is a message
   const ImageRequest request{ argv[1], argv[2], false,

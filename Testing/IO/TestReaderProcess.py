@@ -8,6 +8,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 import unittest
 from pathlib import Path
 
@@ -28,6 +29,14 @@ GEOMETRY = images.Geometry((1.5, -2.25, 3.125), (1.5, 0.75, 0.125))
 
 def voxels(image):
     return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(ARRAY.shape)
+
+
+def status_of(process):
+    """What Linux says of it; nothing if there is none."""
+    try:
+        return Path("/proc/%s/status" % process).read_text()
+    except (FileNotFoundError, ProcessLookupError):
+        return ""
 
 
 def write_vti(path):
@@ -75,6 +84,27 @@ class ReadingProcess(FolderTestCase):
         own.wait()
         with self.assertRaises(ChildProcessError):
             os.waitpid(-1, os.WNOHANG)
+
+    def test_process_ends_with_its_host(self):
+        """Also if it hangs: here it is stopped, as soon as it is confined."""
+        code = ("import sys, voxplex; reader = voxplex.vtkSegmentationReader(); reader.SetFileName(sys.argv[1])\n"
+                "while True: reader.Modified(); reader.Update()")
+        host = subprocess.Popen([sys.executable, "-c", code, self.path])
+        child, end = None, time.monotonic() + 60
+        while child is None and host.poll() is None and time.monotonic() < end:
+            for one in Path("/proc/%d/task/%d/children" % (host.pid, host.pid)).read_text().split():
+                if "\nNoNewPrivs:\t1\n" in status_of(one):
+                    os.kill(int(one), signal.SIGSTOP)
+                    child = one
+        host.kill()
+        host.wait()
+        self.assertIsNotNone(child)
+        while "State:" in status_of(child) and "\nState:\tZ" not in status_of(child) and time.monotonic() < end:
+            time.sleep(0.01)
+        left = status_of(child)
+        if "\nState:\tT" in left:
+            os.kill(int(child), signal.SIGKILL)
+        self.assertNotIn("\nState:\tT", left)
 
     def test_host_that_ignores_its_children(self):
         before = signal.signal(signal.SIGCHLD, signal.SIG_IGN)
