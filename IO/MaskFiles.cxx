@@ -135,9 +135,16 @@ private:
   std::vector<Said> All;
 };
 
-ImageAnswer ReadOne(ImageRequest request, const std::string& path)
+/** One of so many. */
+ImageAnswer ReadOne(
+  ImageRequest request, const std::string& path, std::size_t number = 0, std::size_t count = 1)
 {
   request.Path = path;
+  if (request.Proceed)
+  {
+    request.Proceed = [all = request.Proceed, number, count](double part)
+    { return all((static_cast<double>(number) + part) / static_cast<double>(count)); };
+  }
   return ReadImage(request);
 }
 
@@ -146,10 +153,12 @@ std::optional<ImageAnswer> ReadMasks(const std::vector<std::string>& paths,
   const ImageRequest& request, bool resample, bool isPlaced, bool offer)
 {
   const auto shown = [](const std::string& path) { return "'" + path + "'"; };
+  const std::size_t count = paths.size() * (offer ? 2 : 1);
+  std::size_t number = 0;
   MasksOnGrid masks(resample, request.MaskThreshold);
   for (std::size_t i = 0; offer && i < paths.size(); ++i)
   {
-    masks.OfferGrid(ReadOne(request, paths[i]).Image, shown(paths[i]));
+    masks.OfferGrid(ReadOne(request, paths[i], number++, count).Image, shown(paths[i]));
   }
   if (offer && isPlaced)
   {
@@ -160,7 +169,7 @@ std::optional<ImageAnswer> ReadMasks(const std::vector<std::string>& paths,
   std::vector<std::string> files = paths;
   for (const std::string& path : paths)
   {
-    ImageAnswer answer = ReadOne(request, path);
+    ImageAnswer answer = ReadOne(request, path, number++, count);
     warnings.Add(path, answer.Warnings);
     if (!masks.TakePlace(answer.Image, shown(path)))
     {

@@ -17,6 +17,7 @@
 #include "vtkMatrix3x3.h"
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkVersion.h"
 
 #include <algorithm>
 #include <array>
@@ -57,6 +58,15 @@ void SetTimes(ScalarImage& image, const std::vector<double>& times, const std::s
       times[frame]);
   }
   image.Times = times;
+}
+
+bool IsStopRequested(vtkAlgorithm* reader)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+  return reader->GetAbortExecute() != 0 || reader->CheckAbort(); // which does not know the former
+#else
+  return reader->GetAbortExecute() != 0;
+#endif
 }
 
 } // namespace
@@ -123,6 +133,7 @@ void vtkSegmentationReader::PrintSelf(ostream& os, vtkIndent indent)
   os << "\n"
      << indent << "DataFilesAnywhere: " << (this->DataFilesAnywhere ? "on" : "off") << "\n"
      << indent << "Frames: " << this->GetNumberOfFrames() << "\n"
+     << indent << "Aborted: " << (this->Aborted ? "Yes" : "No") << "\n"
      << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
 }
 
@@ -214,16 +225,38 @@ bool vtkSegmentationReader::IsPlaced() const
       std::begin(this->Direction), std::end(this->Direction), [](double x) { return x != 0; });
 }
 
-/** Unless what was read last is still right. */
+/** What is still right. */
+bool vtkSegmentationReader::IsRead() const
+{
+  return this->Private->Image.Scalars && this->Private->ReadTime > this->MTime;
+}
+
+void vtkSegmentationReader::SetSpace(int space)
+{
+  space = std::clamp<int>(space, SPACE_LPS, SPACE_RAS);
+  if (space != this->Space)
+  {
+    const bool isRead = this->IsRead() && !this->IsPlaced(); // the user's place is in the space
+    this->Space = space;
+    this->Modified();
+    if (isRead)
+    {
+      this->Private->ReadTime.Modified();
+    }
+  }
+}
+
 bool vtkSegmentationReader::Read()
 {
-  Internals& data = *this->Private;
-  if (data.Image.Scalars && data.ReadTime > this->GetMTime())
+  if (this->IsRead())
   {
     return true;
   }
+  Internals& data = *this->Private;
   data = Internals();
   this->ErrorMessage.clear();
+  this->Aborted = false;
+  this->AbortExecute = 0; // what stopped the last reading does not stop this one
   try
   {
     std::vector<std::string> paths = this->FileNames;
@@ -235,7 +268,12 @@ bool vtkSegmentationReader::Read()
     RefuseIf(data.Path.empty(), "no file name is set");
     ImageAnswer answer = ReadImageOrMasks(paths,
       { "", this->SeriesUID ? this->SeriesUID : "", this->DataFilesAnywhere,
-        static_cast<voxplex::Overlap>(this->Overlap), this->MaskThreshold },
+        static_cast<voxplex::Overlap>(this->Overlap), this->MaskThreshold,
+        [this](double part)
+        {
+          this->UpdateProgress(part);
+          return !IsStopRequested(this);
+        } },
       this->ResampleMasks, this->IsPlaced());
     data.Image = std::move(answer.Image);
     data.Labels = std::move(answer.Labels);
@@ -257,6 +295,13 @@ bool vtkSegmentationReader::Read()
     }
     this->PlaceImage();
     this->ReadLabels();
+  }
+  catch (const Stopped&)
+  {
+    data = Internals();
+    this->Aborted = true;
+    this->AbortExecute = 0;
+    return false;
   }
   catch (const std::exception& error)
   {
@@ -358,7 +403,9 @@ int vtkSegmentationReader::RequestInformation(
     {
       output->Initialize();
     }
-    return 0;
+    const std::array<int, 6> nothing{ 0, -1, 0, -1, 0, -1 };
+    information->Set(Pipeline::WHOLE_EXTENT(), nothing.data(), 6);
+    return this->Aborted ? 1 : 0;
   }
   const ScalarImage& image = this->Private->Image;
   const auto space = static_cast<voxplex::Space>(this->Space);
@@ -388,6 +435,11 @@ int vtkSegmentationReader::RequestData(
   vtkInformation* information = outputVector->GetInformationObject(0);
   vtkImageData* output = vtkImageData::GetData(information);
   const ScalarImage& image = this->Private->Image;
+  if (this->Aborted)
+  {
+    output->Initialize();
+    return 1;
+  }
   const bool hasTime = information->Has(Pipeline::UPDATE_TIME_STEP());
   const int frame =
     hasTime ? NearestFrame(image, information->Get(Pipeline::UPDATE_TIME_STEP())) : 0;

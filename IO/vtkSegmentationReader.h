@@ -45,8 +45,13 @@
  *
  * @par When it reads
  * The whole file is read when the pipeline first asks for information, so that damage is known before
- * anything is computed, and kept until the reader is modified. Call Modified() to read a file again that
- * has changed.
+ * anything is computed, and kept until the reader is modified, except by SetSpace(). Call Modified() to read a file again
+ * that has changed.
+ *
+ * @par Progress and abort
+ * Progress is the part of the voxels that has been read, and of masks the part of the files; what the reading process
+ * does is known at its end only. If a progress observer sets AbortExecute, reading stops within a fraction of a second,
+ * the reading process ends, and the output is empty; GetAborted() then returns true. Modified() has it read again.
  *
  * @par The reading process
  * DICOM, TIFF, VTK's files and folders of slices are read by libraries, in a program of its own (voxplexImageReader,
@@ -146,7 +151,7 @@ public:
 
   ///@{
   /** SPACE_LPS (default) or SPACE_RAS. */
-  vtkSetClampMacro(Space, int, SPACE_LPS, SPACE_RAS);
+  void SetSpace(int space);
   vtkGetMacro(Space, int);
   ///@}
 
@@ -201,6 +206,9 @@ public:
   /** All files that voxels and names were read from: of a folder its images, and what headers name. */
   std::vector<std::string> GetFilesRead() const;
 
+  /** Whether the last reading was stopped by AbortExecute. */
+  bool GetAborted() const { return this->Aborted; }
+
   /** Why the last execution failed; empty if it did not. */
   const std::string& GetErrorMessage() const { return this->ErrorMessage; }
 
@@ -238,11 +246,13 @@ private:
   void operator=(const vtkSegmentationReader&) = delete;
 
   bool IsPlaced() const;
+  bool IsRead() const;
   bool Read();
   void ReadLabels();
   void PlaceImage();
 
   std::string ErrorMessage;
+  bool Aborted = false;
 
   struct Internals;
   std::unique_ptr<Internals> Private;

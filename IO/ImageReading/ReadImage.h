@@ -11,6 +11,7 @@
 #include "MaskUnion.h"
 #include "ScalarImage.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,14 @@ struct ImageRequest
     false; ///< whether a header may name files that are not in its folder or below
   Overlap Rule = Overlap::Smallest; ///< of segments in several layers
   double MaskThreshold = 0.5;       ///< above which probabilities are inside
+
+  /** Called several times a second, with the part that has been read, where that is known. If false, Stopped is thrown. */
+  std::function<bool(double)> Proceed;
+};
+
+/** Reading was stopped, as the caller wanted. */
+struct Stopped
+{
 };
 
 /** What is known of an image beside its voxels and its place. */
@@ -60,6 +69,7 @@ struct ImageAnswer : ImageNotes
  *
  * @throws FileError that names the image: no such file, another format, truncated, damaged, no single numbers in three
  * or four dimensions, a place that is none; the reading process cannot be started, crashed or reached a limit
+ * @throws Stopped
  */
 ImageAnswer ReadImage(const ImageRequest& request);
 

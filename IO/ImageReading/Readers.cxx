@@ -12,6 +12,14 @@
 namespace voxplex::io
 {
 
+void Reading::Tell(double part) const
+{
+  if (this->Request.Proceed && !this->Request.Proceed(part))
+  {
+    throw Stopped();
+  }
+}
+
 ImageAnswer ReadBy(Reader reader, Reading reading)
 {
   ImageAnswer answer;

@@ -36,11 +36,14 @@ struct Reading : ImageNotes
 
   /** Of lengths; empty: millimetres. */
   std::string Unit;
+
+  /** What part has been read. @throws Stopped */
+  void Tell(double part) const;
 };
 
 using Reader = ScalarImage (*)(const std::string& path, Reading& reading);
 
-/** Calls a reader. @throws FileError with the reason alone, whatever the reader throws */
+/** Calls a reader. @throws FileError with the reason alone, whatever the reader throws, or Stopped */
 ImageAnswer ReadBy(Reader reader, Reading reading);
 
 /** All formats, for the host: those that libraries read by ReadApart(). */

@@ -28,6 +28,7 @@ namespace
 {
 
 constexpr double LargestDeflateRatio = 1032.0;
+constexpr std::size_t Slab = 1 << 24; // bytes that are read without looking up
 
 // --- Sizes -------------------------------------------------------------------------------------------
 
@@ -177,8 +178,10 @@ std::size_t ReadHex(ByteSource& source, std::span<std::byte> to)
 
 // --- Files -------------------------------------------------------------------------------------------
 
-void ReadPart(
-  const StoredVoxels& stored, const std::string& path, ScalarType type, std::span<std::byte> to)
+/** @param tell of so many bytes */
+template <typename TTell>
+void ReadPart(const StoredVoxels& stored, const std::string& path, ScalarType type,
+  std::span<std::byte> to, TTell&& tell)
 {
   const InputFile file(path);
   const bool areLast = stored.BytesToSkip == StoredVoxels::FromTheEnd;
@@ -199,10 +202,16 @@ void ReadPart(
 
   const bool isText = stored.Coding == Encoding::Text;
   const std::size_t unit = isText ? SizeOf(type) : 1;
-  const std::size_t found = isText
-    ? Dispatch(type, [&](auto zero) { return ReadText<decltype(zero)>(source, to); })
-    : stored.Coding == Encoding::Hex ? ReadHex(source, to)
-                                     : source.Read(to);
+  std::size_t found = 0;
+  for (std::size_t end = 0; end < to.size() && found == end; tell(found))
+  {
+    const auto slab = to.subspan(end, std::min(Slab, to.size() - end));
+    end += slab.size();
+    found += isText
+      ? Dispatch(type, [&](auto zero) { return ReadText<decltype(zero)>(source, slab); })
+      : stored.Coding == Encoding::Hex ? ReadHex(source, slab)
+                                       : source.Read(slab);
+  }
   RefuseIf(found < to.size(), "it is truncated: '", Excerpt(fs::path(path).filename().string()),
     "' holds ", found / unit, " of ", to.size() / unit, isText ? " numbers" : " bytes of voxels");
   if (!isText)
@@ -288,7 +297,13 @@ void ReadVoxels(const StoredVoxels& stored, ScalarImage& image, Reading& reading
   auto* to = static_cast<std::byte*>(image.Scalars.get());
   for (const std::string& path : stored.Files)
   {
-    ReadPart(stored, path, image.Type, { to, part });
+    ReadPart(stored, path, image.Type, { to, part },
+      [&](std::size_t found)
+      {
+        const auto done =
+          static_cast<std::size_t>(to - static_cast<const std::byte*>(image.Scalars.get()));
+        reading.Tell(static_cast<double>(done + found) / static_cast<double>(bytes));
+      });
     to += part;
   }
   const bool isSwapped = stored.IsBigEndian != (std::endian::native == std::endian::big);

@@ -191,16 +191,17 @@ public:
 
   int MemoryDescriptor() const { return this->Memory.Get(); }
 
-  /** Collects all that the process writes. False if that is more, or takes longer, than any answer. */
-  bool Receive(std::string& text)
+  /** Collects all that the process writes. False if that is more, or takes longer, than any answer. @throws Stopped */
+  bool Receive(std::string& text, const Reading& reading)
   {
     constexpr std::size_t longest = 256 << 20;
     const Clock::time_point end = Clock::now() + std::chrono::hours(1);
     std::array<char, 65536> buffer;
     while (text.size() < longest)
     {
+      reading.Tell(0);
       pollfd event{ this->Output.Get(), POLLIN, 0 };
-      const int ready = poll(&event, 1, 1000);
+      const int ready = poll(&event, 1, 100);
       if (ready == 0 && Clock::now() > end)
       {
         return false;
@@ -266,7 +267,7 @@ ScalarImage ReadApart(const std::string&, Reading& reading)
 {
   ReaderProcess process(reading.Request);
   std::string text;
-  const bool isComplete = process.Receive(text);
+  const bool isComplete = process.Receive(text, reading);
   const int status = isComplete ? process.Wait() : SIGKILL;
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   RefuseIf(signal == SIGXCPU || signal == SIGKILL,

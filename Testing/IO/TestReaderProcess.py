@@ -106,6 +106,37 @@ class ReadingProcess(FolderTestCase):
             os.kill(int(child), signal.SIGKILL)
         self.assertNotIn("\nState:\tT", left)
 
+    def test_progress_and_abort(self):
+        """Wherever it is read: a process ends, and the output is empty until the reader is modified."""
+        own = images.write_nrrd(self.folder / "i.nrrd", np.zeros((64, 512, 1024), np.uint8))
+        for path, names in ((self.path, [self.path]), (own, [own]), ("", [own, own, own])):
+            with self.subTest(path=path):
+                reader = voxplex.vtkSegmentationReader()
+                for name in names:
+                    reader.AddFileName(name)
+                told = []
+
+                def stop(*_):
+                    told.append(reader.GetProgress())
+                    reader.SetAbortExecute(1)
+
+                tag = reader.AddObserver("ProgressEvent", stop)
+                reader.Update()
+                self.assertTrue(reader.GetAborted())
+                self.assertEqual((reader.GetErrorMessage(), reader.GetNumberOfFrames(), reader.GetOutput().GetNumberOfPoints()), ("", 0, 0))
+                self.assertLessEqual(told[0], 0.5)
+                with self.assertRaises(ChildProcessError):
+                    os.waitpid(-1, os.WNOHANG)
+                reader.RemoveObserver(tag)
+                told.clear()
+                reader.Modified()
+                reader.AddObserver("ProgressEvent", lambda *_: told.append(reader.GetProgress()))
+                reader.Update()
+                self.assertFalse(reader.GetAborted())
+                self.assertGreater(reader.GetOutput().GetNumberOfPoints(), 0)
+                if path != self.path:
+                    self.assertGreaterEqual(len(set(told)), 2, told)
+
     def test_host_that_ignores_its_children(self):
         before = signal.signal(signal.SIGCHLD, signal.SIG_IGN)
         try:

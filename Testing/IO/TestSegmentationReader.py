@@ -256,6 +256,21 @@ class Errors(FolderTestCase):
 
 
 class Execution(FolderTestCase):
+    def test_space_is_no_reason_to_read_again(self):
+        """Unless the user gives a place, whose coordinates are those of the space."""
+        path = images.write_nrrd(self.folder / "i.nrrd", images.ball(8, 3.0, label=1), images.Geometry((1, 2, 3)))
+        reader = self.reader(path)
+        images.write_nrrd(self.folder / "i.nrrd", images.ball(8, 3.0, label=2), images.Geometry((1, 2, 3)))
+        reader.SetSpace(reader.SPACE_RAS)
+        for label, change in ((1, lambda: None), (2, reader.Modified), (2, lambda: reader.SetOrigin(4, 5, 6))):
+            change()
+            reader.Update()
+            self.assertEqual(reader.GetOutput().GetPointData().GetScalars().GetRange(), (0, label))
+        self.assertEqual(reader.GetOutput().GetOrigin(), (4, 5, 6))
+        reader.SetSpace(reader.SPACE_LPS)
+        reader.Update()
+        self.assertEqual(reader.GetOutput().GetOrigin(), (4, 5, 6))
+
     def test_reads_again_when_modified(self):
         path = images.write_nrrd(self.folder / "i.nrrd", images.ball(8, 3.0, label=1))
         reader = self.reader(path)
