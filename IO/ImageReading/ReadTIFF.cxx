@@ -31,23 +31,13 @@ namespace voxplex::io
 namespace
 {
 
-/** The same file once more. */
-int Duplicate(int descriptor)
-{
-#ifdef _WIN32 // which has no fcntl()
-  return dup(descriptor);
-#else
-  return fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
-#endif
-}
-
 // --- libtiff, which says what it finds to us alone
 
 struct Source
 {
   explicit Source(const InputFile& file)
     : File(file)
-    , Descriptor(Duplicate(file.Descriptor()))
+    , Descriptor(fcntl(file.Descriptor(), F_DUPFD_CLOEXEC, 0))
   {
   }
 
