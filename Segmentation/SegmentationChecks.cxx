@@ -78,38 +78,24 @@ void SegmentationRepair::AddContacts(std::vector<RepairRow>& rows) const
     }
     return count;
   };
-  Rows contacts{ "contacts", {} };
-  for (const std::int64_t position :
-    this->FindVoxels([&](const VoxelIndex&voxel, LabelId id) { return countAt(voxel, id) > 0; }))
-  {
-    const VoxelIndex voxel = this->IndexOf(position);
-    contacts.Add(this->Values[this->Ids[Unsigned(position)]], 1, voxel, voxel);
-  }
-  contacts.AppendTo(rows);
+  this->AddVoxels("contacts",
+    this->FindVoxels([&](const VoxelIndex& voxel, LabelId id) { return countAt(voxel, id) > 0; }),
+    rows);
 }
 
 /** Necks: bridges of what opening by three voxels takes. */
 std::vector<SegmentationRepair::Positions> SegmentationRepair::FindNecks() const
 {
-  const auto isAnyOf = [](const VoxelIndex& voxel, const auto& test)
-  {
-    bool isAny = false;
-    VoxelBox{ Plus(voxel, { -1, -1, -1 }), Plus(voxel, { 1, 1, 1 }) }.ForEachVoxel(
-      [&](const VoxelIndex& other) { isAny = isAny || test(other); });
-    return isAny;
-  };
-  std::vector<bool> isMiddle(this->Ids.size(), false); // of a block of three voxels
-  for (const std::int64_t position :
-    this->FindVoxels([&](const VoxelIndex&voxel, LabelId id)
-      { return !isAnyOf(voxel, [&](const VoxelIndex& other) { return !this->Has(other, id); }); }))
-  {
-    isMiddle[Unsigned(position)] = true;
-  }
+  const std::vector<bool> isMiddle = this->MaskOf( // of a block of three voxels
+    this->FindVoxels(
+      [&](const VoxelIndex& voxel, LabelId id) {
+        return !IsAnyAround(voxel, [&](const VoxelIndex& other) { return !this->Has(other, id); });
+      }));
   std::vector<LabelId> rest = this->Ids;
   const Positions taken = this->FindVoxels(
     [&](const VoxelIndex& voxel, LabelId id)
     {
-      return !isAnyOf(voxel,
+      return !IsAnyAround(voxel,
         [&](const VoxelIndex& other)
         {
           return this->IsInside(other) && isMiddle[Unsigned(this->PositionOf(other))] &&
@@ -150,13 +136,12 @@ std::vector<SegmentationRepair::Positions> SegmentationRepair::FindNecks() const
 /** Background thinner than two voxels, at each label beside it, unless it is a cavity. */
 void SegmentationRepair::AddGaps(std::vector<RepairRow>& rows) const
 {
-  std::vector<bool> isThin(this->Ids.size(), false);
+  const Positions thin = this->FindVoxels(
+    [this](const VoxelIndex& voxel, LabelId) { return !this->IsInBlock(voxel, 0, 0b111); }, true);
+  const std::vector<bool> isThin = this->MaskOf(thin);
   std::map<LabelId, Positions> beside;
-  for (const std::int64_t position :
-    this->FindVoxels(
-      [this](const VoxelIndex&voxel, LabelId) { return !this->IsInBlock(voxel, 0, 0b111); }, true))
+  for (const std::int64_t position : thin)
   {
-    isThin[Unsigned(position)] = true;
     std::set<LabelId> labels;
     this->ForEachNeighbour(
       position, [&](std::int64_t neighbour) { labels.insert(this->Ids[Unsigned(neighbour)]); });
@@ -189,17 +174,17 @@ void SegmentationRepair::AddGaps(std::vector<RepairRow>& rows) const
   gaps.AppendTo(rows);
 }
 
-/** Labels at the border of the image. */
-void SegmentationRepair::AddBorders(std::vector<RepairRow>& rows) const
+/** Each voxel is a place of its label. */
+void SegmentationRepair::AddVoxels(
+  const char* what, const Positions& voxels, std::vector<RepairRow>& rows) const
 {
-  Rows borders{ "border", {} };
-  for (const std::int64_t position :
-    this->FindVoxels([this](const VoxelIndex&voxel, LabelId) { return this->IsAtBorder(voxel); }))
+  Rows found{ what, {} };
+  for (const std::int64_t position : voxels)
   {
     const VoxelIndex voxel = this->IndexOf(position);
-    borders.Add(this->Values[this->Ids[Unsigned(position)]], 1, voxel, voxel);
+    found.Add(this->Values[this->Ids[Unsigned(position)]], 1, voxel, voxel);
   }
-  borders.AppendTo(rows);
+  found.AppendTo(rows);
 }
 
 std::vector<RepairRow> SegmentationRepair::FindSuspicious(
@@ -231,7 +216,9 @@ std::vector<RepairRow> SegmentationRepair::FindSuspicious(
   addPieces("necks", this->FindNecks());
   this->AddGaps(rows);
   this->AddContacts(rows);
-  this->AddBorders(rows);
+  this->AddVoxels("border",
+    this->FindVoxels([this](const VoxelIndex& voxel, LabelId) { return this->IsAtBorder(voxel); }),
+    rows);
   std::vector<bool> occurs(this->Values.size(), false);
   std::for_each(this->Ids.begin(), this->Ids.end(), [&](LabelId id) { occurs[id] = true; });
   for (const auto& [label, name] : names)
@@ -241,18 +228,12 @@ std::vector<RepairRow> SegmentationRepair::FindSuspicious(
       rows.push_back({ .What = "absent", .Label = label });
     }
   }
-  Rows unnamed{ "unnamed", {} };
   for (std::size_t id = 0; id < occurs.size(); ++id)
   {
     occurs[id] = !names.empty() && names.count(this->Values[id]) == 0; // has no name
   }
-  for (const std::int64_t position :
-    this->FindVoxels([&occurs](const VoxelIndex&, LabelId id) { return occurs[id]; }))
-  {
-    const VoxelIndex voxel = this->IndexOf(position);
-    unnamed.Add(this->Values[this->Ids[Unsigned(position)]], 1, voxel, voxel);
-  }
-  unnamed.AppendTo(rows);
+  this->AddVoxels("unnamed",
+    this->FindVoxels([&occurs](const VoxelIndex&, LabelId id) { return occurs[id]; }), rows);
   return rows;
 }
 

@@ -273,6 +273,17 @@ std::vector<RepairRow> SegmentationRepair::FillHoles(std::int64_t largest)
 }
 
 //------------------------------------------------------------------------------------------------
+/** Of each voxel of the image whether it is one of these. */
+std::vector<bool> SegmentationRepair::MaskOf(const Positions& voxels) const
+{
+  std::vector<bool> isOne(this->Ids.size(), false);
+  for (const std::int64_t voxel : voxels)
+  {
+    isOne[Unsigned(voxel)] = true;
+  }
+  return isOne;
+}
+
 /** The sets of these voxels that are connected through faces and have one label, their own or, in background, that given. */
 std::vector<SegmentationRepair::Positions> SegmentationRepair::PiecesOf(
   const Positions& voxels, LabelId ofBackground) const
@@ -281,11 +292,7 @@ std::vector<SegmentationRepair::Positions> SegmentationRepair::PiecesOf(
   {
     return {};
   }
-  std::vector<bool> isOne(this->Ids.size(), false);
-  for (const std::int64_t voxel : voxels)
-  {
-    isOne[Unsigned(voxel)] = true;
-  }
+  const std::vector<bool> isOne = this->MaskOf(voxels);
   // An image has at least two voxels along each axis.
   const VoxelBox box =
     this->BoxOf(voxels).Grown(this->Spacing[0], this->Spacing, this->Grid.Dimensions);
@@ -321,11 +328,7 @@ std::vector<SegmentationRepair::Positions> SegmentationRepair::FindSpikes() cons
       return !this->IsInBlock(voxel, id, 0b011) && !this->IsInBlock(voxel, id, 0b101) &&
         !this->IsInBlock(voxel, id, 0b110);
     });
-  std::vector<bool> isTaken(this->Ids.size(), false);
-  for (const std::int64_t voxel : taken)
-  {
-    isTaken[Unsigned(voxel)] = true;
-  }
+  const std::vector<bool> isTaken = this->MaskOf(taken);
   const auto neighboursOf = [this](std::int64_t voxel, const std::vector<bool>& without)
   {
     Positions found;
@@ -394,11 +397,7 @@ std::vector<RepairRow> SegmentationRepair::RemoveSpikes()
       this->Values[this->Ids[Unsigned(spike.front())]], std::ssize(spike), box.First, box.Last);
     waiting.insert(waiting.end(), spike.begin(), spike.end());
   }
-  std::vector<bool> isWaiting(waiting.empty() ? 0 : this->Ids.size(), false);
-  for (const std::int64_t voxel : waiting)
-  {
-    isWaiting[Unsigned(voxel)] = true;
-  }
+  std::vector<bool> isWaiting = this->MaskOf(waiting);
   // From outside to inside, where spikes of several labels touch.
   while (!waiting.empty())
   {
@@ -684,8 +683,7 @@ void SegmentationRepair::ForEachInReach(const Shell& shell, const Visit& visit) 
   // Also at edges and corners, or the mesh has holes there.
   const auto isBesideSite = [&](const VoxelIndex& voxel)
   {
-    bool isBeside = false;
-    VoxelBox{ Plus(voxel, { -1, -1, -1 }), Plus(voxel, { 1, 1, 1 }) }.ForEachVoxel(
+    return IsAnyAround(voxel,
       [&](const VoxelIndex& other)
       {
         bool isOne = this->IsInside(other) && isSite(other);
@@ -693,9 +691,8 @@ void SegmentationRepair::ForEachInReach(const Shell& shell, const Visit& visit) 
         {
           isOne = isOne && (other[a] == voxel[a] || parts[a] <= 1.0 + DistanceRounding);
         }
-        isBeside = isBeside || isOne;
+        return isOne;
       });
-    return isBeside;
   };
   const VoxelBox box = this->BoxOf(shell.Of);
   const VoxelBox region = shell.Thickness > 0.0 ? box.Grown(margin, this->Spacing, n) : box;

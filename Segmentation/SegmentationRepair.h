@@ -137,6 +137,7 @@ private:
   std::vector<std::pair<Piece, LabelId>> FindCavities(std::int64_t largest) const;
   template <typename Test>
   Positions FindVoxels(Test&& test, bool inBackground = false) const;
+  std::vector<bool> MaskOf(const Positions& voxels) const;
   std::vector<Positions> PiecesOf(const Positions& voxels, LabelId ofBackground = 0) const;
   std::vector<Positions> FindSpikes() const;
   std::vector<Positions> FindNecks() const;
@@ -154,7 +155,7 @@ private:
   void AddComponents(std::vector<RepairRow>& rows) const;
   void AddContacts(std::vector<RepairRow>& rows) const;
   void AddGaps(std::vector<RepairRow>& rows) const;
-  void AddBorders(std::vector<RepairRow>& rows) const;
+  void AddVoxels(const char* what, const Positions& voxels, std::vector<RepairRow>& rows) const;
 
   GridGeometry<3> Grid;
   Point<3> Spacing{};

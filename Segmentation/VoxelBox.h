@@ -120,6 +120,16 @@ struct VoxelBox
   }
 };
 
+/** Whether a test is true for a voxel, or one that shares a face, an edge or a corner with it. */
+template <typename Test>
+bool IsAnyAround(const VoxelIndex& voxel, Test&& test)
+{
+  bool isAny = false;
+  VoxelBox{ Plus(voxel, { -1, -1, -1 }), Plus(voxel, { 1, 1, 1 }) }.ForEachVoxel(
+    [&](const VoxelIndex& other) { isAny = isAny || test(other); });
+  return isAny;
+}
+
 } // namespace voxplex
 
 #endif
