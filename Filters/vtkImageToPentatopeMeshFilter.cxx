@@ -443,7 +443,7 @@ void vtkImageToPentatopeMeshFilter::Mesh(
   const std::string odd = OddTimeScale(frame);
   if (!odd.empty())
   {
-    run.Warn(odd);
+    this->Warn(odd);
   }
 
   const unsigned threads = run.Options.Team.Threads;

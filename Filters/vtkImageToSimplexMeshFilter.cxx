@@ -32,6 +32,7 @@ using voxplex::InputError;
 using voxplex::ItemAt;
 using voxplex::ModifyIf;
 using voxplex::PrintList;
+using voxplex::PrintText;
 
 // The class's constants are the kernel's: casts lead from one to the other.
 using Filter = vtkImageToSimplexMeshFilter;
@@ -101,43 +102,14 @@ vtkImageToSimplexMeshFilter::vtkImageToSimplexMeshFilter()
   this->SetNumberOfOutputPorts(2);
   for (int port = 0; port < 2; ++port)
   {
-    this->SetInputArrayToProcess(port, port, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS,
-      vtkDataSetAttributes::SCALARS);
+    voxplex::SetArray(this, port, port);
   }
 }
 
 vtkImageToSimplexMeshFilter::~vtkImageToSimplexMeshFilter() = default;
 
 //----------------------------------------------------------------------------------------------------
-void vtkImageToSimplexMeshFilter::SetLabelSize(vtkTypeInt64 label, double size)
-{
-  voxplex::SetSize(this, this->Private->LabelSizes, label, size);
-}
-
-double vtkImageToSimplexMeshFilter::GetLabelSize(vtkTypeInt64 label) const
-{
-  return voxplex::SizeOf(this->Private->LabelSizes, label);
-}
-
-void vtkImageToSimplexMeshFilter::RemoveLabelSize(vtkTypeInt64 label)
-{
-  ModifyIf(this, this->Private->LabelSizes.erase(label) > 0);
-}
-
-void vtkImageToSimplexMeshFilter::ClearLabelSizes()
-{
-  Clear(this, this->Private->LabelSizes);
-}
-
-int vtkImageToSimplexMeshFilter::GetNumberOfLabelSizes() const
-{
-  return static_cast<int>(this->Private->LabelSizes.size());
-}
-
-vtkTypeInt64 vtkImageToSimplexMeshFilter::GetSizedLabel(int index) const
-{
-  return ItemAt(this->Private->LabelSizes, index, {}).first;
-}
+VOXPLEX_SIZES_OF_LABELS(vtkImageToSimplexMeshFilter, LabelSize, LabelSizes, SizedLabel, LabelSizes)
 
 //----------------------------------------------------------------------------------------------------
 void vtkImageToSimplexMeshFilter::SetInterfaceSize(
@@ -175,56 +147,10 @@ void vtkImageToSimplexMeshFilter::GetSizedInterface(int index, vtkTypeInt64 labe
 }
 
 //----------------------------------------------------------------------------------------------------
-void vtkImageToSimplexMeshFilter::AddLabel(vtkTypeInt64 label)
-{
-  ModifyIf(this, this->Private->Labels.insert(label).second);
-}
-
-void vtkImageToSimplexMeshFilter::RemoveLabel(vtkTypeInt64 label)
-{
-  ModifyIf(this, this->Private->Labels.erase(label) > 0);
-}
-
-void vtkImageToSimplexMeshFilter::RemoveAllLabels()
-{
-  Clear(this, this->Private->Labels);
-}
-
-int vtkImageToSimplexMeshFilter::GetNumberOfSelectedLabels() const
-{
-  return static_cast<int>(this->Private->Labels.size());
-}
-
-vtkTypeInt64 vtkImageToSimplexMeshFilter::GetSelectedLabel(int index) const
-{
-  return ItemAt(this->Private->Labels, index, 0);
-}
-
-//----------------------------------------------------------------------------------------------------
-void vtkImageToSimplexMeshFilter::ExcludeLabel(vtkTypeInt64 label)
-{
-  ModifyIf(this, this->Private->ExcludedLabels.insert(label).second);
-}
-
-void vtkImageToSimplexMeshFilter::RemoveExcludedLabel(vtkTypeInt64 label)
-{
-  ModifyIf(this, this->Private->ExcludedLabels.erase(label) > 0);
-}
-
-void vtkImageToSimplexMeshFilter::RemoveAllExcludedLabels()
-{
-  Clear(this, this->Private->ExcludedLabels);
-}
-
-int vtkImageToSimplexMeshFilter::GetNumberOfExcludedLabels() const
-{
-  return static_cast<int>(this->Private->ExcludedLabels.size());
-}
-
-vtkTypeInt64 vtkImageToSimplexMeshFilter::GetExcludedLabel(int index) const
-{
-  return ItemAt(this->Private->ExcludedLabels, index, 0);
-}
+VOXPLEX_SET_OF_LABELS(vtkImageToSimplexMeshFilter, AddLabel, RemoveLabel, RemoveAllLabels,
+  SelectedLabel, SelectedLabels, Labels)
+VOXPLEX_SET_OF_LABELS(vtkImageToSimplexMeshFilter, ExcludeLabel, RemoveExcludedLabel,
+  RemoveAllExcludedLabels, ExcludedLabel, ExcludedLabels, ExcludedLabels)
 
 //----------------------------------------------------------------------------------------------------
 void vtkImageToSimplexMeshFilter::SetLabelRow(vtkTypeInt64 label, double size, bool meshed)
@@ -292,15 +218,7 @@ std::map<vtkTypeInt64, vtkTypeInt64> vtkImageToSimplexMeshFilter::CountLabels(
 void vtkImageToSimplexMeshFilter::SetInputArrayToProcess(
   int index, int port, int connection, int association, const char* name)
 {
-  if (name && *name)
-  {
-    this->Superclass::SetInputArrayToProcess(index, port, connection, association, name);
-  }
-  else
-  {
-    this->Superclass::SetInputArrayToProcess(index, port, connection,
-      vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
-  }
+  voxplex::SetArray(this, index, port, connection, association, name);
 }
 
 void vtkImageToSimplexMeshFilter::SetElementSizeData(vtkImageData* image)
@@ -384,14 +302,7 @@ int vtkImageToSimplexMeshFilter::RequestData(
   this->Aborted = false;
   this->Private->Warnings.clear();
   this->Private->Statistics->Initialize();
-  const auto clearOutputs = [this, outputVector]
-  {
-    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
-    {
-      vtkDataObject::GetData(outputVector, port)->Initialize();
-    }
-  };
-  clearOutputs();
+  voxplex::EmptyOutputs(outputVector);
   // The executive takes all outputs for the piece that the asking port wants.
   const int asking = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
   if (IsEmptyPiece(outputVector->GetInformationObject(asking)))
@@ -438,12 +349,11 @@ int vtkImageToSimplexMeshFilter::RequestData(
     for (const std::string& warning : voxplex::WarningsOf(this->Private->Statistics->Edit(),
            names.Names(), this->GetContentionManagerAsString(), this->ExactComponents))
     {
-      this->Private->Warnings.push_back(InTermsOf(this->Vocabulary, warning));
-      vtkWarningMacro(<< this->Private->Warnings.back());
+      this->Warn(warning);
     }
     return 1;
   }
-  clearOutputs();
+  voxplex::EmptyOutputs(outputVector);
   this->Private->Statistics->Initialize();
   if (this->Aborted)
   {
@@ -487,6 +397,12 @@ void vtkImageToSimplexMeshFilter::CheckParameters() const
   {
     throw InputError("{delta}" + voxplex::FindParameter("delta").Excludes.Text + ".");
   }
+}
+
+void vtkImageToSimplexMeshFilter::Warn(const std::string& warning)
+{
+  this->Private->Warnings.push_back(InTermsOf(this->Vocabulary, warning));
+  vtkWarningMacro(<< this->Private->Warnings.back());
 }
 
 std::string vtkImageToSimplexMeshFilter::InTermsOf(int vocabulary, const std::string& message)
@@ -564,8 +480,7 @@ void vtkImageToSimplexMeshFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "Vocabulary: " << this->Vocabulary << "\n";
   os << indent << "ComputeQuality: " << (this->ComputeQuality ? "On" : "Off") << "\n";
-  os << indent << "ErrorMessage: " << (this->ErrorMessage.empty() ? "(none)" : this->ErrorMessage)
-     << "\n";
+  PrintText(os, indent, "ErrorMessage", this->ErrorMessage);
   os << indent << "Aborted: " << (this->Aborted ? "Yes" : "No") << "\n";
   os << indent << "Statistics:\n";
   this->Private->Statistics->PrintSelf(os, indent.GetNextIndent());

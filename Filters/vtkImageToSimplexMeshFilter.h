@@ -707,6 +707,9 @@ protected:
   /** Whether a stop was requested. If so, GetAborted() stays true. */
   bool StopRequested();
 
+  /** Reports a warning, in the terms of Vocabulary, and keeps it for GetWarning(). */
+  void Warn(const std::string& warning);
+
   /** The number of threads that NumberOfThreads currently stands for. */
   unsigned GetThreads() const;
 

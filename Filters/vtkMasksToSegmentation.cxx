@@ -191,8 +191,8 @@ void vtkMasksToSegmentation::PrintSelf(ostream& os, vtkIndent indent)
   os << "\n"
      << indent << "Overlap: " << (this->Overlap == OVERLAP_SMALLEST ? "smallest" : "order") << "\n"
      << indent << "MaskThreshold: " << this->MaskThreshold << "\n"
-     << indent << "ResampleMasks: " << (this->ResampleMasks ? "on" : "off") << "\n"
-     << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
+     << indent << "ResampleMasks: " << (this->ResampleMasks ? "on" : "off") << "\n";
+  PrintText(os, indent, "ErrorMessage", this->ErrorMessage);
 }
 
 void vtkMasksToSegmentation::SetMaskName(int mask, const char* name)
@@ -230,10 +230,7 @@ vtkTypeBool vtkMasksToSegmentation::ProcessRequest(
 int vtkMasksToSegmentation::Fail(vtkInformationVector* outputVector)
 {
   this->Warnings.clear();
-  if (vtkDataObject* output = vtkDataObject::GetData(outputVector))
-  {
-    output->Initialize();
-  }
+  EmptyOutputs(outputVector);
   if (this->ErrorMessage.empty()) // it was stopped
   {
     return 1;
@@ -313,19 +310,9 @@ int vtkMasksToSegmentation::RequestData(
 {
   this->Warnings.clear();
   bool isAborted = false;
-  this->ErrorMessage = CatchFailure(
-    [&]
-    {
-      try
-      {
-        this->Join(inputVector[0], vtkImageData::GetData(outputVector));
-      }
-      catch (const Cancelled&)
-      {
-        isAborted = true;
-      }
-    },
-    NoMemory, "");
+  this->ErrorMessage =
+    CatchFailure([&] { this->Join(inputVector[0], vtkImageData::GetData(outputVector)); }, NoMemory,
+      "", &isAborted);
   if (isAborted || !this->ErrorMessage.empty())
   {
     return this->Fail(outputVector);

@@ -6,6 +6,7 @@
 #include "Mesh/TimeSlice.h"
 #include "Private/Execution.h"
 #include "Private/LabelledMesh.h"
+#include "Private/Lists.h"
 #include "Private/MeshingMessages.h"
 
 #include "vtkAlgorithmOutput.h"
@@ -391,7 +392,5 @@ void vtkPentatopeMeshTimeSlice::PrintSelf(ostream& os, vtkIndent indent)
     os << this->SliceTime << "\n";
   }
   os << indent << "TimeArrayName: " << this->TimeArrayName << "\n";
-  os << indent
-     << "ErrorMessage: " << (this->ErrorMessage.empty() ? "(none)" : this->ErrorMessage.c_str())
-     << "\n";
+  voxplex::PrintText(os, indent, "ErrorMessage", this->ErrorMessage);
 }

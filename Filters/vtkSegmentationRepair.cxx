@@ -29,6 +29,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <string_view>
 #include <vector>
 
 vtkStandardNewMacro(vtkSegmentationRepair);
@@ -39,7 +40,7 @@ using voxplex::RepairRow;
 class vtkSegmentationRepair::Internals
 {
 public:
-  std::map<std::int64_t, double> Thicknesses;
+  std::map<std::int64_t, double> MinimumThicknesses;
   std::map<std::int64_t, double> Shells;
   std::vector<RepairRow> Rows;
   std::map<std::int64_t, std::string> Names;
@@ -97,11 +98,11 @@ void RequireLabels(const char* parameter, const std::map<std::int64_t, double>& 
   }
 }
 
-/** A type that has all whole numbers up to a label: that of an array, or another one. */
-int TypeFor(vtkDataArray* array, std::int64_t highest)
+/** A type that has all whole numbers up to a label: that before the repair, or another one. */
+int TypeFor(int before, std::int64_t highest)
 {
-  const int own = array->GetDataType() == VTK_BIT ? VTK_UNSIGNED_CHAR : array->GetDataType();
-  for (const int type : { own, VTK_UNSIGNED_SHORT, VTK_INT })
+  for (const int type :
+    { before == VTK_BIT ? VTK_UNSIGNED_CHAR : before, VTK_UNSIGNED_SHORT, VTK_INT })
   {
     constexpr std::int64_t one = 1;
     if (type == VTK_FLOAT    ? highest <= one << 24
@@ -119,7 +120,7 @@ vtkSmartPointer<vtkDataArray> MakeArray(
 {
   const std::vector<std::int64_t>& labels = image.Labels();
   auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(
-    TypeFor(before, *std::max_element(labels.begin(), labels.end()))));
+    TypeFor(before->GetDataType(), *std::max_element(labels.begin(), labels.end()))));
   array->SetName(before->GetName());
   array->SetNumberOfTuples(static_cast<vtkIdType>(image.Voxels().size()));
   switch (array->GetDataType())
@@ -129,6 +130,18 @@ vtkSmartPointer<vtkDataArray> MakeArray(
       [&labels](voxplex::LabelId id) { return static_cast<VTK_TT>(labels[id]); }));
   }
   return array;
+}
+
+/** Whether announced scalars are the array to process, by its name or as the active one. */
+bool AreChosen(vtkInformation* scalars, vtkInformation* chosen)
+{
+  if (!scalars || !scalars->Has(vtkDataObject::FIELD_ARRAY_TYPE()))
+  {
+    return false;
+  }
+  const char* const own = scalars->Get(vtkDataObject::FIELD_NAME());
+  const char* const name = chosen->Get(vtkDataObject::FIELD_NAME());
+  return !name || (own && std::string_view(name) == own);
 }
 
 bool HasForeground(vtkDataArray* array)
@@ -277,8 +290,7 @@ vtkSegmentationRepair::vtkSegmentationRepair()
   : Private(std::make_unique<Internals>())
 {
   this->SetNumberOfOutputPorts(2);
-  this->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
+  voxplex::SetArray(this, 0, 0);
 }
 
 vtkSegmentationRepair::~vtkSegmentationRepair() = default;
@@ -286,46 +298,12 @@ vtkSegmentationRepair::~vtkSegmentationRepair() = default;
 void vtkSegmentationRepair::SetInputArrayToProcess(
   int index, int port, int connection, int association, const char* name)
 {
-  if (name && *name)
-  {
-    this->Superclass::SetInputArrayToProcess(index, port, connection, association, name);
-  }
-  else
-  {
-    this->Superclass::SetInputArrayToProcess(index, port, connection,
-      vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
-  }
+  voxplex::SetArray(this, index, port, connection, association, name);
 }
 
-void vtkSegmentationRepair::SetMinimumThickness(vtkTypeInt64 label, double length)
-{
-  voxplex::SetSize(this, this->Private->Thicknesses, label, length);
-}
-
-double vtkSegmentationRepair::GetMinimumThickness(vtkTypeInt64 label) const
-{
-  return voxplex::SizeOf(this->Private->Thicknesses, label);
-}
-
-void vtkSegmentationRepair::ClearMinimumThicknesses()
-{
-  voxplex::Clear(this, this->Private->Thicknesses);
-}
-
-void vtkSegmentationRepair::SetShell(vtkTypeInt64 label, double thickness)
-{
-  voxplex::SetSize(this, this->Private->Shells, label, thickness);
-}
-
-double vtkSegmentationRepair::GetShell(vtkTypeInt64 label) const
-{
-  return voxplex::SizeOf(this->Private->Shells, label);
-}
-
-void vtkSegmentationRepair::ClearShells()
-{
-  voxplex::Clear(this, this->Private->Shells);
-}
+VOXPLEX_SIZES_OF_LABELS(
+  vtkSegmentationRepair, MinimumThickness, MinimumThicknesses, ThickenedLabel, MinimumThicknesses)
+VOXPLEX_SIZES_OF_LABELS(vtkSegmentationRepair, Shell, Shells, ShelledLabel, Shells)
 
 vtkTable* vtkSegmentationRepair::GetReportTable()
 {
@@ -398,11 +376,38 @@ vtkTypeBool vtkSegmentationRepair::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   VOXPLEX_FORGET_ABORT(request);
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
-  {
-    return 1; // the superclass wants to know the array before there is one
-  }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+int vtkSegmentationRepair::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  // The executive has copied what is announced of the input.
+  vtkInformation* const output = outputVector->GetInformationObject(0);
+  vtkInformation* const chosen = this->GetInputArrayInformation(0);
+  for (const int association :
+    { vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataObject::FIELD_ASSOCIATION_CELLS })
+  {
+    vtkInformation* const scalars =
+      vtkDataObject::GetActiveFieldInformation(output, association, vtkDataSetAttributes::SCALARS);
+    if (this->IsIdle() || !AreChosen(scalars, chosen))
+    {
+      continue;
+    }
+    const auto shells = static_cast<std::int64_t>(this->Private->Shells.size());
+    if (shells > 0 && this->FirstShellLabel == 0) // after the highest label, which only data tell
+    {
+      scalars->Remove(vtkDataObject::FIELD_ARRAY_TYPE());
+    }
+    else
+    {
+      scalars->Set(vtkDataObject::FIELD_ARRAY_TYPE(),
+        TypeFor(scalars->Get(vtkDataObject::FIELD_ARRAY_TYPE()),
+          shells > 0 ? this->FirstShellLabel + shells - 1 : 0));
+    }
+    break;
+  }
+  return 1;
 }
 
 int vtkSegmentationRepair::RequestUpdateExtent(
@@ -419,26 +424,16 @@ int vtkSegmentationRepair::RequestData(
   this->Private->Rows.clear();
   this->Private->Warnings.clear();
   bool isAborted = false;
-  this->ErrorMessage = voxplex::CatchFailure(
-    [&]
-    {
-      try
-      {
-        this->Repair(inputVector, outputVector);
-      }
-      catch (const voxplex::Cancelled&)
-      {
-        isAborted = true;
-      }
-    },
-    "There is not enough memory to repair this image.", "The image cannot be repaired: ");
+  this->ErrorMessage = voxplex::CatchFailure([&] { this->Repair(inputVector, outputVector); },
+    "There is not enough memory to repair this image.",
+    "The image cannot be repaired: ", &isAborted);
   const auto words = static_cast<voxplex::UserInterface>(this->Vocabulary);
   if (this->ErrorMessage.empty() && !isAborted)
   {
     for (const RepairRow& row : this->Private->Rows)
     {
       const auto& lengths =
-        row.What == "shell" ? this->Private->Shells : this->Private->Thicknesses;
+        row.What == "shell" ? this->Private->Shells : this->Private->MinimumThicknesses;
       const std::string warning =
         WarningOf(row, this->Private->NameOf(row.Label), voxplex::SizeOf(lengths, row.Label));
       if (!warning.empty())
@@ -450,8 +445,7 @@ int vtkSegmentationRepair::RequestData(
     return 1;
   }
   this->Private->Rows.clear();
-  vtkDataObject::GetData(outputVector, 0)->Initialize();
-  vtkDataObject::GetData(outputVector, 1)->Initialize();
+  voxplex::EmptyOutputs(outputVector);
   if (isAborted)
   {
     return 1;
@@ -465,7 +459,7 @@ int vtkSegmentationRepair::RequestData(
 void vtkSegmentationRepair::CheckParameters() const
 {
   voxplex::CheckValue("fill-holes", this->FillHoles);
-  CheckLengths("min-thickness", this->Private->Thicknesses, false);
+  CheckLengths("min-thickness", this->Private->MinimumThicknesses, false);
   CheckLengths("shell", this->Private->Shells, true);
   if (this->FirstShellLabel < 0 || this->NumberOfThreads < 0)
   {
@@ -476,13 +470,13 @@ void vtkSegmentationRepair::CheckParameters() const
 bool vtkSegmentationRepair::IsIdle() const
 {
   return this->FillHoles == 0 && !this->RemoveSpikes && !this->CheckImage &&
-    this->Private->Thicknesses.empty() && this->Private->Shells.empty();
+    this->Private->MinimumThicknesses.empty() && this->Private->Shells.empty();
 }
 
 void vtkSegmentationRepair::Change(voxplex::SegmentationRepair& image)
 {
   Internals& own = *this->Private;
-  own.Steps = own.Thicknesses.size() + own.Shells.size() + (this->FillHoles > 0 ? 1 : 0) +
+  own.Steps = own.MinimumThicknesses.size() + own.Shells.size() + (this->FillHoles > 0 ? 1 : 0) +
     (this->RemoveSpikes ? 1 : 0) + (this->CheckImage ? 1 : 0);
   own.Step = 0;
   own.Fraction = 0.0;
@@ -500,7 +494,7 @@ void vtkSegmentationRepair::Change(voxplex::SegmentationRepair& image)
   {
     take(image.RemoveSpikes(), 1);
   }
-  take(image.Thicken(own.Thicknesses), own.Thicknesses.size());
+  take(image.Thicken(own.MinimumThicknesses), own.MinimumThicknesses.size());
   const std::int64_t named = own.Names.empty() ? 0 : own.Names.rbegin()->first;
   const std::int64_t highest = std::max(image.Labels().back(), named);
   const std::int64_t first = this->FirstShellLabel > 0 ? this->FirstShellLabel - 1 : highest;
@@ -562,7 +556,7 @@ void vtkSegmentationRepair::Repair(
     }
     if (!isSeries)
     {
-      RequireLabels("min-thickness", this->Private->Thicknesses, image.Labels());
+      RequireLabels("min-thickness", this->Private->MinimumThicknesses, image.Labels());
       RequireLabels("shell", this->Private->Shells, image.Labels());
     }
     this->Private->Names = before;
@@ -582,15 +576,14 @@ void vtkSegmentationRepair::PrintSelf(ostream& os, vtkIndent indent)
   const auto print = [](ostream& to, const auto& item) { to << item.first << '=' << item.second; };
   os << indent << "FillHoles: " << this->FillHoles << "\n";
   os << indent << "RemoveSpikes: " << this->RemoveSpikes << "\n";
-  voxplex::PrintList(os, indent, "MinimumThickness", this->Private->Thicknesses, " none", print);
+  voxplex::PrintList(
+    os, indent, "MinimumThickness", this->Private->MinimumThicknesses, " none", print);
   voxplex::PrintList(os, indent, "Shell", this->Private->Shells, " none", print);
   os << indent << "FirstShellLabel: " << this->FirstShellLabel << "\n";
   os << indent << "CheckImage: " << this->CheckImage << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "Vocabulary: " << this->Vocabulary << "\n";
-  os << indent
-     << "ErrorMessage: " << (this->ErrorMessage.empty() ? "(none)" : this->ErrorMessage.c_str())
-     << "\n";
+  voxplex::PrintText(os, indent, "ErrorMessage", this->ErrorMessage);
   os << indent << "Report: " << (this->Private->Rows.empty() ? "(none)" : "") << "\n"
      << this->GetReport();
 }

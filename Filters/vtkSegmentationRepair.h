@@ -9,7 +9,8 @@
  * @par Input and outputs
  * Port 0: a label image of three dimensions, 0 is background; SetInputArrayToProcess(0, ...) chooses an array, by
  * default the active scalars of points or cells. Frames of a series are repaired one by one. Output 0 is the image with
- * its labels changed, in a larger type if a new label needs it. Output 1 is a vtkTable, a row for each operation and
+ * its labels changed, in a larger type if a new label needs it; before an execution, this type is known if
+ * FirstShellLabel is set. Output 1 is a vtkTable, a row for each operation and
  * label that it changed: `What`, `Label`, `Name`, `Voxels` that were changed, `Places` (sets of them that faces
  * connect), `Largest` (voxels of the largest place), `First` and `Last`, the corners of its bounding box as indices of
  * voxels from 0 on, `LeftOut` (voxels that an operation wanted, and that have to stay as they are), `TouchingFaces` (of
@@ -112,17 +113,26 @@ public:
   ///@}
 
   ///@{
-  /** A smallest thickness of a label, positive; the getter returns 0 if the label has none. */
+  /**
+   * A smallest thickness of a label, positive; the getter returns 0 if the label has none. GetThickenedLabel() numbers
+   * those that have one, in increasing order; it returns 0 if the index is out of range.
+   */
   void SetMinimumThickness(vtkTypeInt64 label, double length);
   double GetMinimumThickness(vtkTypeInt64 label) const;
+  void RemoveMinimumThickness(vtkTypeInt64 label);
   void ClearMinimumThicknesses();
+  int GetNumberOfMinimumThicknesses() const;
+  vtkTypeInt64 GetThickenedLabel(int index) const;
   ///@}
 
   ///@{
-  /** The thickness of a shell, negative for one inside of the label; the getter returns 0 if the label has none. */
+  /** The thickness of a shell, negative for one inside of the label; the others as for MinimumThickness. */
   void SetShell(vtkTypeInt64 label, double thickness);
   double GetShell(vtkTypeInt64 label) const;
+  void RemoveShell(vtkTypeInt64 label);
   void ClearShells();
+  int GetNumberOfShells() const;
+  vtkTypeInt64 GetShelledLabel(int index) const;
   ///@}
 
   ///@{
@@ -174,6 +184,7 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 

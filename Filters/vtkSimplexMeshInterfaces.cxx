@@ -7,6 +7,7 @@
 #include "Mesh/PutRight.h"
 #include "Private/Execution.h"
 #include "Private/LabelledMesh.h"
+#include "Private/Lists.h"
 #include "Private/MeshOutput.h"
 #include "Private/MeshingMessages.h"
 
@@ -178,10 +179,7 @@ int vtkSimplexMeshInterfaces::RequestData(
   {
     return 1;
   }
-  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
-  {
-    vtkDataObject::GetData(outputVector, port)->Initialize();
-  }
+  voxplex::EmptyOutputs(outputVector);
   vtkErrorMacro(<< this->ErrorMessage);
   return 0;
 }
@@ -226,5 +224,5 @@ void vtkSimplexMeshInterfaces::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfTurnedElements: " << this->NumberOfTurnedElements << "\n";
   os << indent << "Changed: " << this->Changed << "\n";
-  os << indent << "ErrorMessage: " << this->ErrorMessage << "\n";
+  voxplex::PrintText(os, indent, "ErrorMessage", this->ErrorMessage);
 }

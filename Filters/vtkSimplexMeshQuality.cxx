@@ -10,7 +10,6 @@
 #include "Private/QualityRun.h"
 #include "Private/QualityTables.h"
 
-#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -42,8 +41,7 @@ vtkSimplexMeshQuality::vtkSimplexMeshQuality()
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(4);
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Label");
-  this->SetInputArrayToProcess(
-    1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
+  voxplex::SetArray(this, 1, 1);
 }
 
 vtkSimplexMeshQuality::~vtkSimplexMeshQuality() = default;
@@ -161,10 +159,7 @@ int vtkSimplexMeshQuality::RequestData(
     return 1;
   }
   this->Private->Clear();
-  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
-  {
-    vtkDataObject::GetData(outputVector, port)->Initialize();
-  }
+  voxplex::EmptyOutputs(outputVector);
   this->Aborted = this->ErrorMessage.empty();
   if (!this->Aborted)
   {
@@ -315,8 +310,6 @@ void vtkSimplexMeshQuality::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "NumberOfLabels: " << this->Private->Labels.size() << "\n";
   os << indent << "Aborted: " << this->Aborted << "\n";
-  os << indent
-     << "ErrorMessage: " << (this->ErrorMessage.empty() ? "(none)" : this->ErrorMessage.c_str())
-     << "\n";
+  voxplex::PrintText(os, indent, "ErrorMessage", this->ErrorMessage);
   os << indent << "All figures: " << this->ToJSON() << "\n";
 }

@@ -10,6 +10,8 @@
 #include "Private/SmpThreads.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -42,6 +44,33 @@ inline bool IsStopRequested(vtkAlgorithm* filter)
 #else
   return filter->GetAbortExecute() != 0;
 #endif
+}
+
+/** An array that an algorithm processes. Without a name: the active scalars of the points, or else of the cells. */
+inline void SetArray(vtkAlgorithm* filter, int index, int port, int connection = 0,
+  int association = vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, const char* name = nullptr)
+{
+  if (name && *name) // not the filter's own, which may be what called
+  {
+    filter->vtkAlgorithm::SetInputArrayToProcess(index, port, connection, association, name);
+  }
+  else
+  {
+    filter->SetInputArrayToProcess(index, port, connection,
+      vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
+  }
+}
+
+/** Empties all outputs of a filter that failed or was stopped. */
+inline void EmptyOutputs(vtkInformationVector* outputs)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    if (vtkDataObject* const output = vtkDataObject::GetData(outputs, port))
+    {
+      output->Initialize();
+    }
+  }
 }
 
 /** @param chosen 0: as many threads as vtkSMPTools uses */

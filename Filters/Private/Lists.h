@@ -41,6 +41,12 @@ typename List::value_type ItemAt(const List& items, int index, typename List::va
   return index >= 0 && index < std::ssize(items) ? *std::next(items.begin(), index) : none;
 }
 
+/** For PrintSelf(). */
+inline void PrintText(std::ostream& os, vtkIndent indent, const char* name, const std::string& text)
+{
+  os << indent << name << ": " << (text.empty() ? "(none)" : text) << "\n";
+}
+
 /** A text of a list that a getter shows; empty if the index is out of range. */
 inline const std::string& TextAt(const std::vector<std::string>& texts, int index)
 {
@@ -64,6 +70,55 @@ double SizeOf(const Map& sizes, const typename Map::key_type& key)
   const auto found = sizes.find(key);
   return found == sizes.end() ? 0.0 : found->second;
 }
+
+// The functions of a filter for a map from labels to sizes, and for a set of labels, both in its Internals.
+#define VOXPLEX_SIZES_OF_LABELS(filter, one, all, sizedLabel, map)                                 \
+  void filter::Set##one(vtkTypeInt64 label, double value)                                          \
+  {                                                                                                \
+    voxplex::SetSize(this, this->Private->map, label, value);                                      \
+  }                                                                                                \
+  double filter::Get##one(vtkTypeInt64 label) const                                                \
+  {                                                                                                \
+    return voxplex::SizeOf(this->Private->map, label);                                             \
+  }                                                                                                \
+  void filter::Remove##one(vtkTypeInt64 label)                                                     \
+  {                                                                                                \
+    voxplex::ModifyIf(this, this->Private->map.erase(label) > 0);                                  \
+  }                                                                                                \
+  void filter::Clear##all()                                                                        \
+  {                                                                                                \
+    voxplex::Clear(this, this->Private->map);                                                      \
+  }                                                                                                \
+  int filter::GetNumberOf##all() const                                                             \
+  {                                                                                                \
+    return static_cast<int>(this->Private->map.size());                                            \
+  }                                                                                                \
+  vtkTypeInt64 filter::Get##sizedLabel(int index) const                                            \
+  {                                                                                                \
+    return voxplex::ItemAt(this->Private->map, index, {}).first;                                   \
+  }
+
+#define VOXPLEX_SET_OF_LABELS(filter, add, remove, clear, label, labels, set)                      \
+  void filter::add(vtkTypeInt64 value)                                                             \
+  {                                                                                                \
+    voxplex::ModifyIf(this, this->Private->set.insert(value).second);                              \
+  }                                                                                                \
+  void filter::remove(vtkTypeInt64 value)                                                          \
+  {                                                                                                \
+    voxplex::ModifyIf(this, this->Private->set.erase(value) > 0);                                  \
+  }                                                                                                \
+  void filter::clear()                                                                             \
+  {                                                                                                \
+    voxplex::Clear(this, this->Private->set);                                                      \
+  }                                                                                                \
+  int filter::GetNumberOf##labels() const                                                          \
+  {                                                                                                \
+    return static_cast<int>(this->Private->set.size());                                            \
+  }                                                                                                \
+  vtkTypeInt64 filter::Get##label(int index) const                                                 \
+  {                                                                                                \
+    return voxplex::ItemAt(this->Private->set, index, 0);                                          \
+  }
 
 /** For PrintSelf(). `print` writes an item; `none` stands for an empty list. */
 template <typename List, typename Printer>

@@ -26,10 +26,12 @@ namespace voxplex
  * Calls work().
  * @param outOfMemory what to say if there is not enough of it
  * @param failed begins what to say of exceptions that are no Error
+ * @param isStopped receives whether Cancelled was thrown, which is no failure
  * @return the message for the user, for InTermsOf(); empty if nothing was thrown
  */
 template <typename Work>
-std::string CatchFailure(Work&& work, const char* outOfMemory, const std::string& failed)
+std::string CatchFailure(
+  Work&& work, const char* outOfMemory, const std::string& failed, bool* isStopped = nullptr)
 {
   try
   {
@@ -38,6 +40,14 @@ std::string CatchFailure(Work&& work, const char* outOfMemory, const std::string
   catch (const Error& error)
   {
     return error.what();
+  }
+  catch (const Cancelled& cancelled)
+  {
+    if (!isStopped)
+    {
+      return failed + cancelled.what();
+    }
+    *isStopped = true;
   }
   catch (const std::bad_alloc&)
   {

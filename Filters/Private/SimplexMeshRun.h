@@ -190,13 +190,6 @@ public:
 
   voxplex::MeshingStatistics& Statistics() { return this->Filter->Private->Statistics->Edit(); }
 
-  void Warn(const std::string& warning)
-  {
-    this->Filter->Private->Warnings.push_back(
-      vtkImageToSimplexMeshFilter::InTermsOf(this->Filter->Vocabulary, warning));
-    vtkWarningWithObjectMacro(this->Filter, << this->Filter->Private->Warnings.back());
-  }
-
 private:
   /** If the image of sizes does not reach as far as the mesh. */
   void WarnOfSizes(const voxplex::SimplexMesh<D>& mesh)
@@ -210,10 +203,9 @@ private:
       });
     if (outside > 0)
     {
-      const std::string warning = "The image of sizes ({size-image}) does not cover " +
+      this->Filter->Warn("The image of sizes ({size-image}) does not cover " +
         std::to_string(outside) + " of " + std::to_string(mesh.Points.size()) +
-        " vertices of the mesh; there the nearest of its sizes holds.";
-      this->Warn(warning);
+        " vertices of the mesh; there the nearest of its sizes holds.");
     }
   }
 

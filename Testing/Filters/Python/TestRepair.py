@@ -10,6 +10,8 @@ import unittest
 import numpy
 from scipy import ndimage
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.vtkConstants import vtkImageScalarTypeNameMacro
+from vtkmodules.vtkCommonDataModel import vtkImageData
 
 import voxplex
 from filter_testing import add_array, components, errors_of, series
@@ -598,6 +600,29 @@ class Together(Repair):
             self.assertEqual(repair.GetErrorMessage(), "")
             found = array_of(repair.GetOutput(), frames[0])
             self.assertEqual((set(numpy.unique(found)), found.dtype), (labels, numpy.uint16))
+
+    def test_announced_type(self):
+        """The type of the output, where it is known: after the highest label it is not."""
+        image = voxplex.Image(ball()).to_vtk()
+        for properties, announced in (({"FillHoles": 1}, "unsigned char"), ({"Shell": {1: 2}}, None), ({}, "unsigned char"),
+                                      ({"Shell": {1: 2}, "FirstShellLabel": 200}, "unsigned char"),
+                                      ({"Shell": {1: 2}, "FirstShellLabel": 256}, "unsigned short"),
+                                      ({"Shell": {1: 2}, "FirstShellLabel": 1 << 40}, "long long")):
+            repair = filter_of(image, **properties)
+            repair.UpdateInformation()
+            information = repair.GetOutputInformation(0)
+            told = vtkImageData.GetScalarType(information) if vtkImageData.HasScalarType(information) else None
+            self.assertEqual(told and vtkImageScalarTypeNameMacro(told), announced)
+            repair.Update()
+            self.assertIn(repair.GetOutput().GetScalarTypeAsString(), (announced, "unsigned char")[:1 if announced else 2])
+
+    def test_lists(self):
+        repair = filter_of(voxplex.Image(ball()).to_vtk(), Shell={3: 1.0, 1: 2.0}, MinimumThickness={2: 4.0})
+        self.assertEqual([repair.GetShelledLabel(i) for i in range(-1, repair.GetNumberOfShells() + 1)], [0, 1, 3, 0])
+        self.assertEqual((repair.GetNumberOfMinimumThicknesses(), repair.GetThickenedLabel(0)), (1, 2))
+        repair.RemoveShell(3)
+        repair.RemoveMinimumThickness(2)
+        self.assertEqual((repair.GetNumberOfShells(), repair.GetShell(3), repair.GetNumberOfMinimumThicknesses()), (1, 0, 0))
 
     def test_errors(self):
         image = voxplex.Image(ball()).to_vtk()
