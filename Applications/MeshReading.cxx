@@ -7,7 +7,7 @@
 #include "ImageReading/VTKFileStructure.h"
 #include "ImageReading/VTKMessages.h"
 #include "Interruption.h"
-#include "MeshChecks.h"
+#include "Meshes/MeshChecks.h"
 #include "Text.h"
 
 #include <vtkCellData.h>

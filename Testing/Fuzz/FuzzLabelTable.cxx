@@ -3,7 +3,7 @@
 /** @file FuzzLabelTable.cxx @brief Tables of labels, of all formats. */
 #include "FileError.h"
 #include "Fuzzing.h"
-#include "LabelTableFile.h"
+#include "LabelTables/LabelTableFile.h"
 
 namespace fuzz = voxplex::fuzz;
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "MeshChecks.h"
+#include "Meshes/MeshChecks.h"
 
 #include "FileError.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "LabelTableFile.h"
+#include "LabelTables/LabelTableFile.h"
 
 #include "FileError.h"
 #include "Text.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "MaskFiles.h"
+#include "Masks/MaskFiles.h"
 
 #include "FileError.h"
 #include "ImageReading/FilesOfFolder.h"

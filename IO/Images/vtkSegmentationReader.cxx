@@ -4,8 +4,8 @@
 
 #include "FileError.h"
 #include "LabelTable.h"
-#include "LabelTableFile.h"
-#include "MaskFiles.h"
+#include "LabelTables/LabelTableFile.h"
+#include "Masks/MaskFiles.h"
 #include "Placement.h"
 #include "VTKImage.h"
 

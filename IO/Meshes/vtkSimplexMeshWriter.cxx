@@ -3,7 +3,7 @@
 #include "vtkSimplexMeshWriter.h"
 
 #include "FileError.h"
-#include "MeshInput.h"
+#include "Meshes/MeshInput.h"
 #include "WholeFiles.h"
 
 #include "vtkCommand.h"

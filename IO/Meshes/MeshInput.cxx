@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "MeshInput.h"
+#include "Meshes/MeshInput.h"
 
 #include "FileError.h"
 #include "LabelTable.h"
-#include "MeshChecks.h"
+#include "Meshes/MeshChecks.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
