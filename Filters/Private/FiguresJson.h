@@ -13,7 +13,7 @@
 #include "Mesher/MeshingStatistics.h"
 #include "Quality/MeshQuality.h"
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -27,7 +27,20 @@ nlohmann::ordered_json FiguresToJson(const MeshingStatistics& figures);
 /** The object "quality". */
 nlohmann::ordered_json QualityToJson(const MeshQuality& quality);
 
-/** A list of objects with label, voxels and the index of a voxel. */
+/** A list of what describe() makes of each item. */
+template <typename Items, typename Describe>
+nlohmann::ordered_json ListToJson(const Items& items, Describe&& describe)
+{
+  auto list = nlohmann::ordered_json::array();
+  for (const auto& item : items)
+  {
+    list.push_back(describe(item));
+  }
+  return list;
+}
+
+/** An object with label, voxels and the index of a voxel. */
+nlohmann::ordered_json ComponentToJson(const ComponentReport& component);
 nlohmann::ordered_json ComponentsToJson(const std::vector<ComponentReport>& components);
 
 /**

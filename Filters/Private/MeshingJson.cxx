@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/FiguresJson.h"
 
-#include <nlohmann/json.hpp>
-
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -39,65 +37,30 @@ void AddRuns(ordered_json& json, const MeshingStatistics& run)
   {
     elements = run.ElementsAskedFor;
   }
-  ordered_json& runs = json["runs"] = ordered_json::array();
-  for (const MeshingRun& one : run.Runs)
-  {
-    runs.push_back({ { "delta", one.Delta }, { "elements", one.Elements } });
-  }
+  json["runs"] = ListToJson(run.Runs,
+    [](const MeshingRun& one) -> ordered_json {
+      return { { "delta", one.Delta }, { "elements", one.Elements } };
+    });
 }
 
-ordered_json ShrunkToJson(const std::vector<ShrunkLabel>& labels)
+ordered_json BrokenToJson(const BrokenComponent& component)
 {
-  ordered_json shrunk = ordered_json::array();
-  for (const ShrunkLabel& label : labels)
-  {
-    shrunk.push_back({ { "label", label.Label }, { "fraction", label.Fraction } });
-  }
-  return shrunk;
-}
-
-ordered_json BrokenToJson(const std::vector<BrokenComponent>& components)
-{
-  ordered_json broken = ordered_json::array();
-  for (const BrokenComponent& component : components)
-  {
-    broken.push_back({ { "label", component.Component.Label },
-      { "voxels", component.Component.Voxels }, { "voxel", component.Component.Voxel },
-      { "fragments", component.Fragments }, { "largest", component.Largest } });
-  }
-  return broken;
-}
-
-ordered_json UnitedToJson(const std::vector<UnitedComponents>& pieces)
-{
-  ordered_json united = ordered_json::array();
-  for (const UnitedComponents& piece : pieces)
-  {
-    united.push_back({ { "label", piece.Component.Label }, { "voxels", piece.Component.Voxels },
-      { "voxel", piece.Component.Voxel }, { "number", piece.Number } });
-  }
-  return united;
-}
-
-ordered_json ContactsToJson(const std::vector<FalseContact>& contacts)
-{
-  ordered_json json = ordered_json::array();
-  for (const FalseContact& contact : contacts)
-  {
-    json.push_back({ { "labels", contact.Labels }, { "facets", contact.Facets },
-      { "area", contact.Area }, { "voxel", contact.Voxel } });
-  }
+  ordered_json json = ComponentToJson(component.Component);
+  json.update({ { "fragments", component.Fragments }, { "largest", component.Largest } });
   return json;
 }
 
-ordered_json RelaxationToJson(const std::vector<RelaxationReport>& regions)
+ordered_json UnitedToJson(const UnitedComponents& piece)
 {
-  ordered_json json = ordered_json::array();
-  for (const RelaxationReport& region : regions)
-  {
-    json.push_back({ { "step", region.Step }, { "voxel", region.Voxel } });
-  }
+  ordered_json json = ComponentToJson(piece.Component);
+  json["number"] = piece.Number;
   return json;
+}
+
+ordered_json ContactToJson(const FalseContact& contact)
+{
+  return { { "labels", contact.Labels }, { "facets", contact.Facets }, { "area", contact.Area },
+    { "voxel", contact.Voxel } };
 }
 
 ordered_json RulesToJson(const RuleStatistics& rules)
@@ -192,30 +155,26 @@ void AddIfCounted(ordered_json& json, const char* key, const std::optional<std::
   }
 }
 
-ordered_json ThreadsToJson(const std::vector<ThreadStatistics>& threads)
+ordered_json ThreadToJson(const ThreadStatistics& thread)
 {
-  ordered_json list = ordered_json::array();
-  for (const auto& thread : threads)
-  {
-    ordered_json& json = list.emplace_back(ordered_json{
-      { "insertions", thread.Insertions },
-      { "removals", thread.Removals },
-      { "rollbacks", thread.Rollbacks },
-      { "waits", thread.Waits },
-      { "contention_seconds", thread.ContentionSeconds },
-      { "load_balance_seconds", thread.LoadBalanceSeconds },
-      { "rollback_seconds", thread.RollbackSeconds },
-      { "received", thread.Received },
-      { "received_elements", thread.ReceivedElements },
-      { "helped_loops", thread.HelpedLoops },
-      { "helped_iterations", thread.HelpedIterations },
-      { "helping_seconds", thread.HelpingSeconds },
-    });
-    AddIfCounted(json, "tlb_misses", thread.Hardware.TlbMisses);
-    AddIfCounted(json, "last_level_cache_misses", thread.Hardware.LastLevelCacheMisses);
-    AddIfCounted(json, "resource_stall_cycles", thread.Hardware.ResourceStallCycles);
-  }
-  return list;
+  ordered_json json = {
+    { "insertions", thread.Insertions },
+    { "removals", thread.Removals },
+    { "rollbacks", thread.Rollbacks },
+    { "waits", thread.Waits },
+    { "contention_seconds", thread.ContentionSeconds },
+    { "load_balance_seconds", thread.LoadBalanceSeconds },
+    { "rollback_seconds", thread.RollbackSeconds },
+    { "received", thread.Received },
+    { "received_elements", thread.ReceivedElements },
+    { "helped_loops", thread.HelpedLoops },
+    { "helped_iterations", thread.HelpedIterations },
+    { "helping_seconds", thread.HelpingSeconds },
+  };
+  AddIfCounted(json, "tlb_misses", thread.Hardware.TlbMisses);
+  AddIfCounted(json, "last_level_cache_misses", thread.Hardware.LastLevelCacheMisses);
+  AddIfCounted(json, "resource_stall_cycles", thread.Hardware.ResourceStallCycles);
+  return json;
 }
 
 } // namespace
@@ -245,17 +204,25 @@ ordered_json FiguresToJson(const MeshingStatistics& v)
     { "sizes_raised_to", v.SizesRaisedTo },
     { "isosurface", IsosurfaceToJson(v.Isosurface) },
     { "lost_labels", v.LostLabels },
-    { "shrunk_labels", ShrunkToJson(v.ShrunkLabels) },
+    { "shrunk_labels",
+      ListToJson(v.ShrunkLabels,
+        [](const ShrunkLabel& label) -> ordered_json {
+          return { { "label", label.Label }, { "fraction", label.Fraction } };
+        }) },
     { "components", v.Components.Found },
     { "lost_components", ComponentsToJson(v.Components.Lost) },
-    { "broken_components", BrokenToJson(v.Components.Broken) },
-    { "united_components", UnitedToJson(v.Components.United) },
-    { "false_contacts", ContactsToJson(v.Components.Contacts) },
+    { "broken_components", ListToJson(v.Components.Broken, BrokenToJson) },
+    { "united_components", ListToJson(v.Components.United, UnitedToJson) },
+    { "false_contacts", ListToJson(v.Components.Contacts, ContactToJson) },
     { "dropped_components", ComponentsToJson(v.DroppedComponents) },
     { "frame_components", v.FrameComponents.Found },
     { "lost_frame_components", ComponentsToJson(v.FrameComponents.Lost) },
     { "largest_regional_work", v.Rules.LargestRegionalWork },
-    { "yielding_regions", RelaxationToJson(v.RelaxedRegions) },
+    { "yielding_regions",
+      ListToJson(v.RelaxedRegions,
+        [](const RelaxationReport& region) -> ordered_json {
+          return { { "step", region.Step }, { "voxel", region.Voxel } };
+        }) },
     { "time_planes", PlanesToJson(v.Planes) },
     { "interfaces", InterfacesToJson(v.Interfaces) },
     { "optimisation", OptimisationToJson(v.Optimisation, v.Dimension == 4) },
@@ -290,7 +257,7 @@ ordered_json FiguresToJson(const MeshingStatistics& v)
         { "total", times.Total() } } },
     { "memory",
       { { "label_field_bytes", v.LabelFieldBytes }, { "distance_bytes", v.DistanceBytes } } },
-    { "thread_statistics", ThreadsToJson(v.Threads) },
+    { "thread_statistics", ListToJson(v.Threads, ThreadToJson) },
   });
   return json;
 }

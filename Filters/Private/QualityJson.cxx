@@ -4,8 +4,6 @@
 
 #include "Private/QualityTables.h"
 
-#include <nlohmann/json.hpp>
-
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -137,18 +135,15 @@ ordered_json QualityToJson(const MeshQuality& quality)
   };
 }
 
+ordered_json ComponentToJson(const ComponentReport& component)
+{
+  return { { "label", component.Label }, { "voxels", component.Voxels },
+    { "voxel", component.Voxel } };
+}
+
 ordered_json ComponentsToJson(const std::vector<ComponentReport>& components)
 {
-  ordered_json list = ordered_json::array();
-  for (const ComponentReport& component : components)
-  {
-    list.push_back({
-      { "label", component.Label },
-      { "voxels", component.Voxels },
-      { "voxel", component.Voxel },
-    });
-  }
-  return list;
+  return ListToJson(components, ComponentToJson);
 }
 
 void AppendLabel(ordered_json& labels, std::int64_t label, ordered_json figures)
@@ -184,20 +179,11 @@ ordered_json FrameToJson(const FrameMeasurement& frame)
   return json;
 }
 
-ordered_json WorstToJson(const std::vector<WorstElement>& worst)
+ordered_json WorstToJson(const WorstElement& element)
 {
-  ordered_json list = ordered_json::array();
-  for (const WorstElement& element : worst)
-  {
-    list.push_back({
-      { "cell", element.Cell },
-      { "label", element.Label },
-      { "normalized_volume", element.NormalizedVolume },
-      { "radius_edge", element.RadiusEdgeRatio },
-      { "place", element.Place },
-    });
-  }
-  return list;
+  return { { "cell", element.Cell }, { "label", element.Label },
+    { "normalized_volume", element.NormalizedVolume }, { "radius_edge", element.RadiusEdgeRatio },
+    { "place", element.Place } };
 }
 
 } // namespace
@@ -227,7 +213,7 @@ std::string ToJson(const SpaceTimeMeasurement& figures)
   }
   json["labels"] = std::move(labels);
   json["quality"] = QualityToJson(figures.Quality);
-  json["worst_elements"] = WorstToJson(figures.Worst);
+  json["worst_elements"] = ListToJson(figures.Worst, WorstToJson);
   if (figures.Components)
   {
     json["image"] = {
@@ -236,12 +222,7 @@ std::string ToJson(const SpaceTimeMeasurement& figures)
       { "lost_components", ComponentsToJson(figures.Components->Lost) },
     };
   }
-  ordered_json frames = ordered_json::array();
-  for (const FrameMeasurement& frame : figures.Frames)
-  {
-    frames.push_back(FrameToJson(frame));
-  }
-  json["frames"] = std::move(frames);
+  json["frames"] = ListToJson(figures.Frames, FrameToJson);
   return json.dump();
 }
 
