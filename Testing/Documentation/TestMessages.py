@@ -14,7 +14,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-FOLDERS = ("Applications", "Filters", "IO", "Kernel", "Parameters")
+FOLDERS = ("Applications", "Filters", "IO", "Kernel", "Parameters", "Segmentation")
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 # Where two literals are joined, by standing side by side or by an operator.
 JOINT = re.compile(r'(?<!\\)"\s*(?:\+\s*)?"')
