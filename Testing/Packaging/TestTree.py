@@ -61,7 +61,7 @@ class Contents(unittest.TestCase):
         names = {path.relative_to(TREE / "include").as_posix() for path in (TREE / "include").rglob("*") if path.is_file()}
         folder = f"voxplex-{VERSION}"
         public = {f"{folder}/{path.name}" for part in ("Filters", "IO")
-                  for path in (Path(os.environ["VOXPLEX_SOURCE"]) / part).glob("vtk*.h")
+                  for path in (Path(os.environ["VOXPLEX_SOURCE"]) / part).rglob("vtk*.h")
                   if part == "Filters" or "VoxplexIO" in MODULES}
         generated = {f"{folder}/vtk{module}Module.h" for module in MODULES}
         if HAVE_ITK:
