@@ -50,38 +50,55 @@ std::string SuggestOption(const po::options_description& options, std::string_vi
  * An option that needs a value and is followed by another option, which would be taken for the value. A value that
  * begins with two dashes can be given after an equals sign.
  */
-void RequireValues(int argc, const char* const* argv, const po::options_description& all)
+void RequireValues(const std::vector<std::string>& arguments, const po::options_description& all)
 {
-  for (int i = 1; i + 1 < argc; ++i)
+  for (std::size_t i = 0; i + 1 < arguments.size(); ++i)
   {
-    const std::string_view argument = argv[i];
-    if (!argument.starts_with("--") || argument == "--" ||
-      !std::string_view(argv[i + 1]).starts_with("--"))
+    const std::string& argument = arguments[i];
+    const std::string& next = arguments[i + 1];
+    if (!argument.starts_with("--") || argument == "--" || !next.starts_with("--"))
     {
       continue;
     }
-    const auto* const option = all.find_nothrow(std::string(argument.substr(2)), false);
+    const auto* const option = all.find_nothrow(argument.substr(2), false);
     if (option != nullptr && option->semantic()->min_tokens() > 0)
     {
-      throw UsageError(
-        Quoted(argument) + " needs a value, but " + Quoted(argv[i + 1]) + " follows it");
+      throw UsageError(Quoted(argument) + " needs a value, but " + Quoted(next) + " follows it");
     }
   }
 }
 
-po::variables_map ParseOptions(int argc, const char* const* argv, Verb verb)
+/** Options may have underscores in place of dashes, as those of the Slicer Execution Model must. */
+std::vector<std::string> WithDashes(std::vector<std::string> arguments)
+{
+  for (std::string& argument : arguments)
+  {
+    if (argument == "--")
+    {
+      break;
+    }
+    if (argument.starts_with("--"))
+    {
+      const std::size_t end = std::min(argument.find('='), argument.size());
+      std::replace(argument.begin(), argument.begin() + static_cast<std::ptrdiff_t>(end), '_', '-');
+    }
+  }
+  return arguments;
+}
+
+po::variables_map ParseOptions(const std::vector<std::string>& arguments, Verb verb)
 {
   const po::options_description all = OptionsOf(verb);
   namespace style = po::command_line_style;
   po::options_description recognised;
   recognised.add(all).add_options()(Words, po::value<std::vector<std::string>>());
-  RequireValues(argc, argv, all);
+  RequireValues(arguments, all);
   po::variables_map values;
   try
   {
     // No short options, so that '-1' is a value; no guessing from abbreviations.
     const auto parsed =
-      po::command_line_parser(argc, argv)
+      po::command_line_parser(arguments)
         .options(recognised)
         .positional(po::positional_options_description().add(Words, -1))
         .style(style::allow_long | style::long_allow_adjacent | style::long_allow_next)
@@ -147,7 +164,11 @@ void TakeParameters(const po::variables_map& given, Parameters& p)
     {
       for (const std::string& text : AllGiven(given, option.c_str()))
       {
-        p.OfLabels[parameter.Name].push_back(ParseLabels(option, text, parameter));
+        const bool isOfSizes = parameter.Kind != ParameterKind::Labels;
+        for (const std::string& item : isOfSizes ? SplitBehindNumbers(text) : std::vector{ text })
+        {
+          p.OfLabels[parameter.Name].push_back(ParseLabels(option, item, parameter));
+        }
       }
     }
     else if (parameter.Kind == ParameterKind::Flag)
@@ -309,8 +330,8 @@ CommandLine ParseCommandLine(int argc, const char* const* argv)
   {
     throw UsageError("which image shall be meshed?");
   }
-  const int skipped = given ? 1 : 0; // the verb, in whose place the program's name is
-  const po::variables_map values = ParseOptions(argc - skipped, argv + skipped, verb);
+  const int first = given ? 2 : 1;
+  const po::variables_map values = ParseOptions(WithDashes({ argv + first, argv + argc }), verb);
   if (values.count("version"))
   {
     return { std::nullopt, "voxplex " VOXPLEX_VERSION "\n" };

@@ -149,9 +149,29 @@ std::vector<std::string> SplitAtCommas(std::string_view text)
   for (std::size_t comma = 0; comma != std::string_view::npos;)
   {
     comma = text.find(',');
-    parts.emplace_back(text.substr(0, comma));
+    parts.emplace_back(io::Trim(text.substr(0, comma)));
     text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
   }
+  return parts;
+}
+
+std::vector<std::string> SplitBehindNumbers(std::string_view text)
+{
+  std::vector<std::string> parts;
+  std::size_t equals = text.find('=');
+  while (equals != std::string_view::npos)
+  {
+    const std::size_t comma = text.find(',', equals);
+    const bool isEnd = comma != std::string_view::npos &&
+      io::ToNumber<double>(io::Trim(text.substr(equals + 1, comma - equals - 1)));
+    if (isEnd)
+    {
+      parts.emplace_back(io::Trim(text.substr(0, comma)));
+      text.remove_prefix(comma + 1);
+    }
+    equals = text.find('=', isEnd ? 0 : equals + 1);
+  }
+  parts.emplace_back(io::Trim(text));
   return parts;
 }
 

@@ -37,8 +37,11 @@ int ParseWhole(const std::string& option, const std::string& text, int low, int 
 /** A label by its number; nothing if the text is no number, and thus a name. */
 std::optional<std::int64_t> ParseLabelNumber(const std::string& option, std::string_view text);
 
-/** "1,Tibia,5": the texts between the commas. */
+/** "1,Tibia, 5": the texts between the commas, without blanks around them. */
 std::vector<std::string> SplitAtCommas(std::string_view text);
+
+/** "3=1.5,7,0=2": "3=1.5" and "7,0=2". A comma that follows an equals sign and a number separates. */
+std::vector<std::string> SplitBehindNumbers(std::string_view text);
 
 /** "0.5,1": finite numbers with commas between them. */
 std::vector<double> ParseNumbers(const std::string& option, std::string_view text);

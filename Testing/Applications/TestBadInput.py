@@ -120,6 +120,8 @@ class CommandLine(ProgramTestCase):
             (("--labels", "1,-2"), "--labels: '-2' is not a label"),
             (("--labels", "0"), "--labels: '0' is not a label"),
             (("--label-size", "3"), "--label-size: '3' is not of the form"),
+            (("--label-size", "3=1,2"), "--label-size: '2' is not of the form"),
+            (("--label-size", "3=1,"), "--label-size: '' is not of the form"),
             (("--label-size", "3=0"), "--label-size: must be greater than 0"),
             (("--label-size", "1.5=1"), "--label-size: '1.5' is not a label"),
             (("--label-size", "=1"), "--label-size: '' is not a label"),

@@ -69,6 +69,18 @@ class Selection(NamesTestCase):
         (self.folder / "names.txt").write_text("3 T1=low\n")
         self.assertEqual(self.labels("--label-table", "names.txt", "--label-size", "T1=low=2"), {3, 7})
 
+    def test_lists_of_sizes(self):
+        """A comma behind a number separates. Options may have underscores."""
+        (self.folder / "names.txt").write_text("3 Tibia, left\n7 T1=low,1=2\n")
+        for options in ((("--label_size=Tibia, left=1.5, T1=low,1=2=1.2",), ("--label-size", "3=1.5", "--label-size", "7=1.2")),
+                        (("--interface_size", "Tibia, left=1,7,0=2"), ("--interface-size", "3=1", "--interface-size", "0,7=2"))):
+            files = []
+            for arguments in options:
+                self.mesh("--input", self.image, "--delta", 4, "--threads", 1, "--label-table", "names.txt", *arguments,
+                          "--output", "m.mesh")
+                files.append((self.folder / "m.mesh").read_bytes())
+            self.assertEqual(*files)
+
     def test_interfaces_of_names(self):
         (self.folder / "names.txt").write_text("3 Tibia, left\n7 Femur\n")
         files = []
