@@ -4,6 +4,7 @@
 
 #include "EditDistance.h"
 #include "Errors.h"
+#include "ExecutionModel.h"
 #include "OptionValues.h"
 #include "Options.h"
 #include "ParameterChecks.h"
@@ -153,6 +154,7 @@ std::vector<std::string> AllGiven(const po::variables_map& values, const char* n
 /** What is given of the table. */
 void TakeParameters(const po::variables_map& given, Parameters& p)
 {
+  const bool isModule = given.count(ResultsOption) > 0;
   for (const MeshingParameter& parameter : MeshingParameters())
   {
     const std::string option = NameIn(UserInterface::CommandLine, parameter);
@@ -175,9 +177,10 @@ void TakeParameters(const po::variables_map& given, Parameters& p)
     {
       p.Values[parameter.Name] = parameter.IsOnByDefault() ? 0.0 : 1.0;
     }
-    else
+    else if (const auto& text = given[option].as<std::string>();
+             !isModule || !IsLeftAsDescribed(parameter, text))
     {
-      p.Values[parameter.Name] = ParseParameter(option, given[option].as<std::string>(), parameter);
+      p.Values[parameter.Name] = ParseParameter(option, text, parameter);
     }
   }
   for (const MeshingParameter& parameter : MeshingParameters())
@@ -284,7 +287,9 @@ Parameters ToParameters(Verb verb, const po::variables_map& values)
     },
     p.TimePlanes);
   Take(values, "messages", ParseWords, p.Words);
-  p.Progress = values.count("progress") > 0;
+  Take(values, ResultsOption, ParseName, p.Results);
+  p.Words = p.Results.empty() ? p.Words : UserInterface::Slicer;
+  p.Progress = values.count("progress") > 0 || !p.Results.empty();
   p.Compress = values.count("uncompressed") == 0;
   p.Hausdorff = values.count("hausdorff") > 0;
   p.Quality = p.Hausdorff || verb == Verb::Measure || values.count("quality") > 0;
@@ -303,6 +308,10 @@ UserInterface WordsOf(int argc, const char* const* argv)
   for (int i = 1; i < argc; ++i)
   {
     const std::string argument = std::string(argv[i]) + '=' + (i + 1 < argc ? argv[i + 1] : "");
+    if (argument.starts_with("--" + std::string(ResultsOption) + '='))
+    {
+      return UserInterface::Slicer;
+    }
     if (argument.starts_with(option))
     {
       const std::string word =
@@ -332,6 +341,10 @@ CommandLine ParseCommandLine(int argc, const char* const* argv)
   }
   const int first = given ? 2 : 1;
   const po::variables_map values = ParseOptions(WithDashes({ argv + first, argv + argc }), verb);
+  if (values.count("xml"))
+  {
+    return { std::nullopt, DescribeModule() };
+  }
   if (values.count("version"))
   {
     return { std::nullopt, "voxplex " VOXPLEX_VERSION "\n" };

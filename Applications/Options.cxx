@@ -123,6 +123,13 @@ const std::vector<OwnOption>& OwnOptions()
       "for programs that start this one: the names that errors and warnings have for options "
       "(default shell); with slicer, --progress is that of 3D Slicer's modules",
       ParameterGroup::Running },
+    { "returnparameterfile", "FILE", { Verb::Mesh },
+      "for 3D Slicer: a file for results, in lines such as 'numberOfTetrahedra = 4711'; with it "
+      "numbers and words that are as by default count as not given, and progress and messages are "
+      "those of a module of 3D Slicer",
+      ParameterGroup::Running },
+    { "xml", "", { Verb::Mesh }, "print the description of this program as a module of 3D Slicer",
+      ParameterGroup::Running },
     { "help", "", All, "print this text", ParameterGroup::Running },
     { "version", "", All, "print the version", ParameterGroup::Running },
   };

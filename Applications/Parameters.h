@@ -45,6 +45,7 @@ struct Parameters
   std::string Output;         ///< a mesh, or an image
   std::string Interfaces;
   std::string Statistics;
+  std::string Results; ///< for an application of the Slicer Execution Model
   std::string Slices; ///< the beginning of the names of slices
   std::optional<int> SliceCount;
   std::vector<double> TimePlanes; ///< in the image's unit of time

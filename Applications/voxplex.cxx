@@ -4,6 +4,7 @@
 
 #include "CommandLine.h"
 #include "Errors.h"
+#include "ExecutionModel.h"
 #include "ImageFile.h"
 #include "Interruption.h"
 #include "Measuring.h"
@@ -13,7 +14,6 @@
 #include "OutputFiles.h"
 #include "ParameterChecks.h"
 #include "ProcessMemory.h"
-#include "Program.h"
 #include "ProgressBar.h"
 #include "SpaceTimeFiles.h"
 #include "StatisticsReport.h"
@@ -105,6 +105,7 @@ void Announce(io::WholeFiles& files, const Parameters& p)
   AnnounceMesh(files, p.Output);
   AnnounceMesh(files, p.Interfaces);
   AnnounceFile(files, p.Statistics);
+  AnnounceFile(files, p.Results);
   ProtectInputs(files, p, {});
 }
 
@@ -556,6 +557,10 @@ void Run(const Parameters& p)
   {
     WriteReport(report, p.Statistics, files);
   }
+  if (!p.Results.empty())
+  {
+    WriteResults(report, p.Results, files);
+  }
   CommitFiles(files);
   Warn(repair.Warnings);
   if (filter)
@@ -567,9 +572,12 @@ void Run(const Parameters& p)
 }
 
 } // namespace
+} // namespace voxplex::cli
 
-int RunProgram(int argc, const char* const* argv)
+int main(int argc, char* argv[])
 {
+  using namespace voxplex;
+  using namespace voxplex::cli;
   KeepFreedMemory();
   Interruption::Install();
   SilenceVTK();
@@ -610,5 +618,3 @@ int RunProgram(int argc, const char* const* argv)
   }
   return ExitFailure;
 }
-
-} // namespace voxplex::cli

@@ -110,12 +110,12 @@ const char* FormOf(UserInterface interface, ParameterKind kind)
   };
   static constexpr Form forms[] = {
     { ParameterKind::Labels, "1,2,5 or Tibia,Femur; may be repeated",
-      "1,2,5; empty: all are meshed", "numbers or names" },
-    { ParameterKind::LabelSizes, "3=1.5,7=2 or Tibia=1.5; may be repeated", "3=1.5,7=2",
-      "{label: length}, labels being numbers or names" },
+      "1,2,5 or Tibia,Femur; empty: all are meshed", "numbers or names" },
+    { ParameterKind::LabelSizes, "3=1.5,7=2 or Tibia=1.5; may be repeated",
+      "3=1.5,7=2 or Tibia=1.5", "{label: length}, labels being numbers or names" },
     { ParameterKind::InterfaceSizes,
       "3=0.5 for one label, 3,7=0.5 or Tibia,0=2 for two; may be repeated",
-      "3=0.5 for one label, 3:7=0.4 for two; separated by commas",
+      "3=0.5 for one label, 3,7=0.5 or Tibia,0=2 for two; separated by commas",
       "{label: length} and {(label, label): length}" },
     { ParameterKind::Bytes, "such as 8G", "", "in bytes" },
     { ParameterKind::Times, "0,40,80,160", "", "" },

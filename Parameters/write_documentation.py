@@ -12,7 +12,7 @@ import sys
 LARGEST_WHOLE = 2**31 - 1
 HEAD = """# Parameters of meshing
 
-Their names in the program `voxplex`, in Python (`voxplex.mesh()`), 3D Slicer (the CLI module) and VTK, whose methods
+Their names in the program `voxplex`, in Python (`voxplex.mesh()`), 3D Slicer (the panel) and VTK, whose methods
 have Set or Get before them; ParaView's properties have VTK's names. [Reference.md](Reference.md) says what each does. A
 script makes this page from the table in `Parameters/Table.cxx`.
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Each parameter, through the program, 3D Slicer's module and Python: the mesh that the filter makes with it, and another
+"""Each parameter, through the program, also as 3D Slicer's module, and Python: the mesh that the filter makes with it, and another
 one than without."""
 import os
 import subprocess
@@ -43,9 +43,9 @@ ELSEWHERE = {"OptimisationTimeLimit", "NumberOfThreads", "Reproducible", "FineGr
 ELSEWHERE |= {p["property"] for p in TABLE if p["class"] in ("Reader", "Repair")}
 
 
-def text_of(values, between):
+def text_of(values):
     """3 or 3=1.5 or 3,7=1.5."""
-    keys = between.join(str(key) for key in values[:-1] if key != ANY)
+    keys = ",".join(str(key) for key in values[:-1] if key != ANY)
     return f"{keys}={values[-1]}"
 
 
@@ -55,25 +55,10 @@ def for_program(name, value):
     if parameter["kind"] == "flag":
         return [option] if value == (parameter["default"] == "off") else []
     if name == "Label":
-        return [option, ",".join(map(str, value))]
+        return [option, ", ".join(map(str, value))]
     if name in ("LabelSize", "InterfaceSize"):
-        return [word for values in value for word in (option, text_of(values, ","))]
+        return [option, ", ".join(text_of(values) for values in value)]
     return [option, str(value)]
-
-
-def for_module(name, value):
-    """None where the module has no such flag."""
-    parameter = BY_PROPERTY[name]
-    if not parameter["slicer"]:
-        return None
-    flag = "--" + parameter["name"].replace("-", "_")
-    if parameter["kind"] == "flag":
-        return [flag, "on" if value else "off"] if parameter["default"] == "on" else [flag] * value
-    if name == "Label":
-        return [flag, ", ".join(map(str, value))]
-    if name in ("LabelSize", "InterfaceSize"):
-        return [flag, ", ".join(text_of(values, ":") for values in value)]
-    return [flag, str(value)]
 
 
 def for_python(name, value):
@@ -94,8 +79,8 @@ def cells_of(mesh):
 
 
 class Arrival(FolderTestCase):
-    def run_program(self, variable, *arguments):
-        done = subprocess.run([os.environ[variable], *map(str, arguments)], cwd=self.folder, capture_output=True, text=True)
+    def run_program(self, *arguments):
+        done = subprocess.run([os.environ["VOXPLEX_PROGRAM"], *map(str, arguments)], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def filter_of(self, array, dimension, properties):
@@ -124,16 +109,16 @@ class Arrival(FolderTestCase):
                 other = cells_of(self.filter_of(array, dimension, without))
                 self.assertFalse(numpy.array_equal(expected, other))
                 words = [word for item in properties.items() for word in for_program(*item)]
-                self.run_program("VOXPLEX_PROGRAM", "--threads", 1, *words, "--input", "image.nrrd", "--output", "mesh.vtu")
+                self.run_program("--threads", 1, *words, "--input", "image.nrrd", "--output", "mesh.vtu")
                 numpy.testing.assert_array_equal(read(self.folder / "mesh.vtu").cells, expected)
+                if dimension == 3:
+                    flags = [word.replace("-", "_").replace("__", "--", 1) if word.startswith("--") else word for word in words]
+                    self.run_program("--returnparameterfile", "results", *flags, "--threads", 1, "image.nrrd", "module.vtu")
+                    numpy.testing.assert_array_equal(read(self.folder / "module.vtu").cells, expected)
                 words = [for_python(*item) for item in properties.items()]
                 if None not in words:
                     arguments = {key: value for item in words for key, value in item.items()}
                     numpy.testing.assert_array_equal(cells_of(voxplex.mesh(array, threads=1, **arguments)), expected)
-                words = [for_module(*item) for item in properties.items()]
-                if dimension == 3 and None not in words and "VOXPLEX_SLICER_CLI" in os.environ:
-                    self.run_program("VOXPLEX_SLICER_CLI", "--threads", 1, *sum(words, []), "image.nrrd", "module.vtu")
-                    numpy.testing.assert_array_equal(read(self.folder / "module.vtu").cells, expected)
 
     def test_tetrahedra(self):
         array = images.two_labels()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The extension's CMake files, configured with a stand-in for Slicer's CMake package, and its metadata."""
+"""The extension's CMake files, configured with what they use of Slicer's CMake package, and its metadata."""
 import json
 import os
 import re
@@ -14,10 +14,29 @@ HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[2]
 EXTENSION = REPOSITORY / "Plugins" / "Slicer"
 CMAKE = os.environ.get("VOXPLEX_CMAKE", "cmake")
+SLICER = """
+set(Slicer_CLIMODULES_BIN_DIR "lib/Slicer-5.8/cli-modules")
+set(Slicer_INSTALL_CLIMODULES_BIN_DIR "lib/Slicer-5.8/cli-modules")
+foreach (file IN ITEMS USE_FILE EXTENSION_GENERATE_CONFIG EXTENSION_CPACK)
+  file(WRITE "${CMAKE_BINARY_DIR}/nothing.cmake" "")
+  set(Slicer_${file} "${CMAKE_BINARY_DIR}/nothing.cmake")
+endforeach ()
+macro (slicerMacroBuildScriptedModule)
+  cmake_parse_arguments(module "WITH_GENERIC_TESTS" "NAME" "SCRIPTS;RESOURCES" ${ARGN})
+  foreach (file IN LISTS module_SCRIPTS module_RESOURCES)
+    if (NOT EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
+      message(FATAL_ERROR "there is no ${file}")
+    endif ()
+    get_filename_component(folder "${file}" DIRECTORY)
+    install(FILES "${file}" DESTINATION "lib/Slicer-5.8/qt-scripted-modules/${folder}")
+  endforeach ()
+endmacro ()
+"""
 
 
 def configure(folder, *options):
-    done = subprocess.run([CMAKE, "-S", EXTENSION, "-B", folder, "-DSlicer_DIR=%s" % (HERE / "standins" / "cmake"),
+    (folder / "SlicerConfig.cmake").write_text(SLICER)
+    done = subprocess.run([CMAKE, "-S", EXTENSION, "-B", folder / "build", "-DSlicer_DIR=%s" % folder,
                            "-DCMAKE_BUILD_TYPE=Release", *options], capture_output=True, text=True, timeout=300)
     if done.returncode:
         raise AssertionError(done.stdout + done.stderr)
@@ -28,14 +47,13 @@ class Extension(unittest.TestCase):
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory(prefix="voxplex-slicer-")
         cls.addClassCleanup(folder.cleanup)
-        cls.build = Path(folder.name)
-        configure(cls.build)
-        cls.description = dict(line.split(" ", 1) for line in
-                               (cls.build / "VoxplexMesher.description").read_text().splitlines())
+        cls.build = Path(folder.name) / "build"
+        configure(Path(folder.name))
+        cls.description = dict(re.findall(r'set\(EXTENSION_([A-Z]+) "(.*)"\)', (EXTENSION / "CMakeLists.txt").read_text()))
 
     def test_metadata(self):
         d = self.description
-        self.assertEqual(d["NAME"], "VoxplexMesher")
+        self.assertEqual(set(d), {"HOMEPAGE", "CATEGORY", "CONTRIBUTORS", "DESCRIPTION", "ICONURL", "SCREENSHOTURLS", "DEPENDS"})
         self.assertNotIn("\n", d["DESCRIPTION"])
         self.assertLess(len(d["DESCRIPTION"]), 200)
 
@@ -91,8 +109,8 @@ class Extension(unittest.TestCase):
         """It goes where Slicer looks for it, and nothing of the libraries' headers and packages is installed."""
         folder = tempfile.TemporaryDirectory(prefix="voxplex-slicer-")
         self.addCleanup(folder.cleanup)
-        build = Path(folder.name)
-        configure(build, "-DVOXPLEX_BUILD_CLI_MODULE=ON")
+        build = Path(folder.name) / "build"
+        configure(Path(folder.name), "-DVOXPLEX_BUILD_CLI_MODULE=ON")
         script = (build / "cmake_install.cmake").read_text()
         self.assertEqual(set(re.findall(r"\$\{CMAKE_INSTALL_PREFIX\}/([^\"]*/)SegmentationToTetMesh", script)),
                          {"lib/Slicer-5.8/cli-modules/"})
@@ -102,7 +120,7 @@ class Extension(unittest.TestCase):
         cache = (build / "CMakeCache.txt").read_text()
         self.assertIn("CGAL_DIR", cache)
         # Where Slicer's launcher of the build tree looks.
-        self.assertIn("VOXPLEX_SLICER_CLI_OUTPUT_DIRECTORY:PATH=%s/lib/Slicer-5.8/cli-modules\n" % build, cache)
+        self.assertIn('"%s/lib/Slicer-5.8/cli-modules/SegmentationToTetMesh"' % build, script)
 
     def test_slicer_is_needed(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,24 +1,26 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The logic of the scripted module, without Slicer: with the program as a process, beside the CLI module."""
+"""The logic of the scripted module, without Slicer: with the program as a process."""
 import os
 import re
 import subprocess
 import sys
 import unittest
-from dataclasses import asdict, fields, replace
+from dataclasses import replace
+from pathlib import Path
 
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import images
-from module import MODULE, ModuleTestCase, descriptions
-from VoxplexMesherLib.Logic import (DEFAULTS, PARAMETERS, MeshingError, MeshingLogic, Phase, RunState, Segment, Settings,
+from program import PROGRAM, ProgramTestCase
+
+MODULE = Path(__file__).resolve().parents[3] / "Plugins" / "Slicer" / "VoxplexMesher"
+sys.path.insert(0, str(MODULE))
+from VoxplexMesherLib.Logic import (DEFAULTS, PARAMETERS, MeshingError, MeshingLogic, Phase, RunState, Segment, Settings,  # noqa: E402
                                     describeMesh, describeQuality, labelMesh, measureLabels,
                                     mergeChoices, parseInterfaceSizes, parseSize, programOptions, storeChoices)
-
-PROGRAM = os.environ["VOXPLEX_PROGRAM"]
 
 SEGMENTS = [Segment("s1", "Bone", (1.0, 0.9, 0.7)), Segment("s2", "Mark", (0.8, 0.1, 0.1)),
             Segment("s3", "Muscle, left", (0.5, 0.2, 0.2))]
@@ -157,14 +159,6 @@ class Choices(unittest.TestCase):
         self.assertEqual(describeQuality(compared)[1:], ["Hausdorff distance 1.23 mm, 2 non-manifold edges, volumes of segments "
                                                          "off by up to 1.5 %"])
 
-    def test_settings_are_those_of_the_cli_module(self):
-        known = descriptions()
-        self.assertIsNone(known["isovalue"].find("default"))  # a text there, and none is no isosurface
-        for field in (field for field in fields(Settings) if field.name != "isovalue"):
-            default = known[field.name].findtext("default") or ""
-            value = getattr(Settings(), field.name)
-            self.assertEqual(value, default == "true" if isinstance(value, bool) else type(value)(default), field.name)
-
     def test_what_does_not_do(self):
         with self.assertRaisesRegex(MeshingError, "No segment is chosen"):
             programOptions([replace(segment, mesh=False) for segment in SEGMENTS], Settings())
@@ -176,7 +170,7 @@ class Choices(unittest.TestCase):
             programOptions(SEGMENTS, Settings(elements=-5))
 
 
-class Runs(ModuleTestCase):
+class Runs(ProgramTestCase):
     def setUp(self):
         super().setUp()
         array = images.two_labels(lower=1, upper=2)
@@ -255,7 +249,7 @@ class Runs(ModuleTestCase):
         self.logic.start(self.segments, Settings(delta=0.05, force=True))
         self.assertEqual((phases[0], phases[-2:]), (Phase.RUNNING, [Phase.CANCELLING, Phase.CANCELLED]))
         self.assertEqual(self.lines[-1], "Cancelled")
-        self.assertEqual(set(self.contents()), {"labels.nrrd"})
+        self.assertEqual(set(self.contents()), {Path("labels.nrrd")})
         self.logic.cancel()  # no run: nothing happens
         self.assertEqual(phases[-1], Phase.CANCELLED)
 
@@ -287,23 +281,6 @@ class Runs(ModuleTestCase):
         for mesh in (None, vtkUnstructuredGrid()):
             with self.assertRaisesRegex(MeshingError, "made no tetrahedra"):
                 measureLabels(mesh)
-
-    def test_same_mesh_from_the_cli_module(self):
-        """Settings mean the same in both."""
-        settings = Settings(delta=2.5, smoothing=0.5, radiusEdge=2.1, facetAngle=25.0, sliverAngle=7.0, gradation=0.5,
-                            grading="lfs", featureRatio=0.8, largestFeature=9.0, junctions="off", interfaceRounds=1,
-                            smallestComponent=3, minimumVolume=1.5, optimise="off", threads=1,
-                            interfaceSizes="Bone : Mark = 2")
-        self.logic.start([replace(self.segments[0], size=2.0), self.segments[1]], settings)
-        parameters = {**asdict(settings), "labelSizes": "1=2.0", "interfaceSizes": "1:2=2.0", "isovalue": ""}
-        flags = []
-        for name, p in descriptions().items():
-            if name in parameters and p.tag == "boolean":
-                flags += [p.findtext("longflag")] if parameters[name] else []
-            elif name in parameters:
-                flags += [p.findtext("longflag"), parameters[name]]
-        self.run_module(*flags, "labels.nrrd", "other.vtu")
-        self.assertEqual(measureLabels(self.logic.runner.mesh()), measureLabels(read(self.folder / "other.vtu")))
 
 
 if __name__ == "__main__":
