@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The Voxplex developers
 # SPDX-License-Identifier: BSD-3-Clause
 """The logic of the scripted module, without Slicer: with the program as a process."""
+import json
 import os
 import re
 import subprocess
@@ -18,9 +19,10 @@ from program import PROGRAM, ProgramTestCase
 
 MODULE = Path(__file__).resolve().parents[3] / "Plugins" / "Slicer" / "VoxplexMesher"
 sys.path.insert(0, str(MODULE))
-from VoxplexMesherLib.Logic import (DEFAULTS, PARAMETERS, MeshingError, MeshingLogic, Phase, RunState, Segment, Settings,  # noqa: E402
+from VoxplexMesherLib.Logic import (DEFAULTS, PARAMETERS, SIZES, MeshingError, MeshingLogic, Phase, RunState, Segment, Settings,  # noqa: E402
                                     describeMesh, describeQuality, labelMesh, measureLabels,
-                                    mergeChoices, parseInterfaceSizes, parseSize, programOptions, storeChoices)
+                                    mergeChoices, parseInterfaceSizes, parseSize, programOptions, segmentsByLabel, setSize,
+                                    storeChoices)
 
 SEGMENTS = [Segment("s1", "Bone", (1.0, 0.9, 0.7)), Segment("s2", "Mark", (0.8, 0.1, 0.1)),
             Segment("s3", "Muscle, left", (0.5, 0.2, 0.2))]
@@ -37,10 +39,11 @@ class ProcessRunner:
     """Calls the program; waits for it in start()."""
 
     def __init__(self, folder):
-        self.input, self.output = folder / "labels.nrrd", folder / "mesh.vtu"
+        self.input, self.output, self.figures = folder / "labels.nrrd", folder / "mesh.vtu", folder / "figures.json"
 
     def start(self, options, onChange):
-        self.process = subprocess.Popen([PROGRAM, "--input", self.input, "--output", self.output, "--progress", *options],
+        self.process = subprocess.Popen([PROGRAM, "--input", self.input, "--output", self.output, "--stats", self.figures,
+                                         "--progress", *options],
                                         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         self.cancelled = False
         errors = ""
@@ -56,7 +59,7 @@ class ProcessRunner:
         elif self.process.returncode:
             onChange(RunState(Phase.FAILED, message=errors))
         else:
-            onChange(RunState(Phase.COMPLETED, 1.0, warnings=errors))
+            onChange(RunState(Phase.COMPLETED, 1.0, warnings=errors, figures=json.loads(self.figures.read_text())))
 
     def cancel(self):
         self.cancelled = True
@@ -74,7 +77,7 @@ class Choices(unittest.TestCase):
         self.assertEqual(subprocess.run([sys.executable, "-B", "-c", code], env=environment).returncode, 0)
 
     def test_choices_are_stored_by_id(self):
-        chosen = [replace(SEGMENTS[0], mesh=False), replace(SEGMENTS[1], size=1.5), SEGMENTS[2]]
+        chosen = [replace(SEGMENTS[0], mesh=False), replace(SEGMENTS[1], sizes={"labelSizes": 1.5, "shells": -2.0}), SEGMENTS[2]]
         text = storeChoices(chosen)
         self.assertEqual(mergeChoices(SEGMENTS, text), chosen)
         # In another order, with one more and one fewer: what is known stays, what is new is meshed.
@@ -88,6 +91,14 @@ class Choices(unittest.TestCase):
         for text in ("x", "-1", "nan", "inf", "1.5 mm"):
             with self.assertRaisesRegex(MeshingError, "is not a size"):
                 parseSize(text)
+        segment = Segment("s", "S", (1, 1, 1))
+        setSize(segment, "shells", "-2,5")
+        setSize(segment, "labelSizes", "3")
+        setSize(segment, "labelSizes", "")
+        self.assertEqual(segment.sizes, {"shells": -2.5})
+        for name in set(SIZES) - {"shells"}:
+            with self.assertRaisesRegex(MeshingError, "is not a size"):
+                setSize(segment, name, "-1")
 
     def test_settings_as_texts(self):
         settings = Settings(delta=1.25, threads=3, force=True)
@@ -98,12 +109,15 @@ class Choices(unittest.TestCase):
         self.assertEqual(Settings.fromTexts(lambda name: ""), Settings())
         hand = Settings.fromTexts({"delta": "by hand", "smallestComponent": "eight"}.get)
         self.assertEqual((hand.delta, hand.smallestComponent), (0.0, 8))
-        self.assertEqual(Settings.fromTexts(Settings(optimise="off", grading="lfs").toTexts().get).optimise, "off")
+        for text, isOn in (("on", True), ("true", True), ("off", False), ("false", False)):
+            self.assertIs(Settings.fromTexts({"optimise": text}.get).optimise, isOn)
 
     def test_options(self):
-        segments = [replace(SEGMENTS[0], mesh=False, size=9.0), replace(SEGMENTS[1]), replace(SEGMENTS[2], size=1.5)]
-        options = programOptions(segments, Settings(delta=2.0, optimise="off", exactComponents=True))
-        self.assertIn("--label-size=2=1.5", options)  # the first is not meshed: the labels are 1 and 2
+        segments = [replace(SEGMENTS[0], mesh=False, sizes={"labelSizes": 9.0}), replace(SEGMENTS[1]),
+                    replace(SEGMENTS[2], sizes={"labelSizes": 1.5, "minimumThickness": 2.0, "shells": -1.0})]
+        options = programOptions(segments, Settings(delta=2.0, optimise=False, exactComponents=True))
+        # The first is not meshed: the labels are 1 and 2.
+        self.assertEqual(options[:3], ["--label-size=2=1.5", "--min-thickness=2=2.0", "--shell=2=-1.0"])
         self.assertLess({"--delta=2.0", "--no-optimise", "--exact-components", "--sliver-angle=9.0"}, set(options))
 
     def test_options_that_count(self):
@@ -127,7 +141,7 @@ class Choices(unittest.TestCase):
             if parameter["words"]:
                 return parameter["words"][1]
             if isinstance(default, (bool, str)):
-                return {"on": "off", "off": "on", "": "Bone = 2", False: True}[default]
+                return "Bone = 2" if default == "" else not default
             return default + (1 if default + 1 <= (parameter["range"][1] or 1e9) else -1)
         for name in PARAMETERS:
             settings = Settings(**{name: other(name)}, **({} if name == "grading" else {"grading": "lfs"}))
@@ -194,7 +208,7 @@ class Runs(ProgramTestCase):
         for label in (1, 2):
             self.assertAlmostEqual(figures[label].volume / (self.array == label).sum(), 1.0, delta=0.08)
         self.assertEqual(sum(f.elements for f in figures.values()), mesh.GetNumberOfCells())
-        lines = describeMesh(mesh, self.segments)
+        lines = describeMesh(mesh, segmentsByLabel(self.segments, self.states[-1].figures))
         self.assertEqual(lines[0], "%d tetrahedra with %d nodes" % (mesh.GetNumberOfCells(), mesh.GetNumberOfPoints()))
         self.assertRegex(lines[1], "^  Bone: %d tetrahedra, " % figures[1].elements)
         self.assertRegex(lines[2], "^  Mark: %d tetrahedra, " % figures[2].elements)
@@ -206,13 +220,13 @@ class Runs(ProgramTestCase):
         plain = count(self.segments, delta=3.0)
         self.assertGreater(count(self.segments, delta=2.0), 1.5 * plain)
         self.assertGreater(count(self.segments, delta=3.0, size=1.5), 1.5 * plain)
-        self.assertGreater(count([replace(self.segments[0], size=1.5), self.segments[1]], delta=3.0), 1.2 * plain)
+        self.assertGreater(count([replace(self.segments[0], sizes={"labelSizes": 1.5}), self.segments[1]], delta=3.0), 1.2 * plain)
 
     def test_names_and_colours(self):
         self.logic.start(self.segments, Settings(delta=3.0))
         mesh = self.logic.runner.mesh()
         for _ in range(2):  # a second time replaces the first
-            labelMesh(mesh, self.segments)
+            labelMesh(mesh, segmentsByLabel(self.segments, {}))
         data = mesh.GetFieldData()
         self.assertEqual([data.GetAbstractArray("LabelNames").GetValue(i) for i in range(2)], ["Bone", "Mark"])
         self.assertEqual([data.GetArray("LabelValues").GetValue(i) for i in range(2)], [1, 2])
@@ -227,7 +241,24 @@ class Runs(ProgramTestCase):
         self.assertEqual(self.logic.state.phase, Phase.COMPLETED)
         self.assertTrue(any("The mesh lacks these labels" in line for line in self.lines), self.lines)
         self.assertIn("  Muscle, left: none; it is too small for this delta",
-                      describeMesh(self.logic.runner.mesh(), SEGMENTS))
+                      describeMesh(self.logic.runner.mesh(), segmentsByLabel(SEGMENTS, {})))
+
+    def test_thickness_and_shells(self):
+        """A shell is a label of its own, with the name of what it is around, and a brighter colour."""
+        self.array[6, 6, 6] = 3
+        images.write_nrrd(self.folder / "labels.nrrd", self.array)
+        segments = [replace(SEGMENTS[0], sizes={"shells": 2.0}), replace(SEGMENTS[1], sizes={"shells": -1.5}),
+                    replace(SEGMENTS[2], sizes={"minimumThickness": 3.0})]
+        self.logic.start(segments, Settings(delta=1.5))
+        labels = segmentsByLabel(segments, self.states[-1].figures)
+        self.assertEqual([segment.name for segment in labels.values()],
+                         ["Bone", "Mark", "Muscle, left", "Bone shell", "Mark shell"])
+        self.assertEqual(labels[5].color, (0.9, 0.55, 0.55))
+        mesh = self.logic.runner.mesh()
+        lines = describeMesh(mesh, labels)
+        for line, segment in zip(lines[1:], labels.values()):
+            self.assertRegex(line, "^  %s: [0-9]+ tetrahedra" % segment.name)
+        self.assertGreater(measureLabels(mesh)[2].volume, 8)  # of one voxel
 
     def test_failure(self):
         self.logic.start(self.segments, Settings(radiusEdge=1.2))

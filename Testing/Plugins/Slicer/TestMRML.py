@@ -193,7 +193,7 @@ class MRML(unittest.TestCase):
         names = loaded.GetMesh().GetFieldData().GetAbstractArray("LabelNames")
         self.assertEqual([names.GetValue(i) for i in range(names.GetNumberOfValues())], ["First", "Third"])
 
-    def mesh_balls(self, *balls, onChange=lambda logic, state: None, **parameters):
+    def mesh_balls(self, *balls, sizes=(), onChange=lambda logic, state: None, **parameters):
         """The last state of a run with balls: name, x, radius."""
         segmentation = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLSegmentationNode", "Balls")
         segmentation.CreateDefaultDisplayNodes()
@@ -212,6 +212,10 @@ class MRML(unittest.TestCase):
         self.node.SetNodeReferenceID("Segmentation", segmentation.GetID())
         for name, text in {"delta": "2.0", **parameters}.items():
             self.node.SetParameter(name, text)
+        segments = logic.segments(self.node)
+        for segment, chosen in zip(segments, sizes):
+            segment.sizes = chosen
+        logic.storeSegments(self.node, segments)
         logic.apply(self.node)
         logic.wait()
         self.assertEqual(os.listdir(slicer.app.temporaryPath), [])
@@ -226,6 +230,16 @@ class MRML(unittest.TestCase):
         balls = [4 / 3 * np.pi * radius**3 for radius in (6, 12, 8)]
         np.testing.assert_allclose([f.volume for f in figures], [balls[0], balls[1] - balls[0], balls[2]], rtol=0.1)
         self.assertEqual(nodes("vtkMRMLLabelMapVolumeNode"), [])
+
+    def test_shell(self):
+        """It has a name and a colour in the scene."""
+        state = self.mesh_balls(("First", 0.0, 8.0), ("Second", 40.0, 8.0), sizes=({"labelSizes": 3.0}, {"shells": 3.0}))
+        self.assertEqual(state.phase, Phase.COMPLETED, state)
+        figures = measureLabels(self.node.GetNodeReference("OutputMesh").GetMesh())
+        np.testing.assert_allclose([f.volume for f in figures], 4 / 3 * np.pi * np.array((8**3, 8**3, 11**3 - 8**3)), rtol=0.1)
+        colors, = nodes("vtkMRMLColorTableNode")
+        self.assertEqual([colors.GetColorName(i) for i in range(colors.GetNumberOfColors())],
+                         ["background", "First", "Second", "Second shell"])
 
     def test_failure(self):
         """The image is named as in the scene, and not as the file that it was in."""

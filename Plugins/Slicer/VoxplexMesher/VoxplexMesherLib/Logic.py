@@ -34,20 +34,22 @@ class Segment:
     name: str
     color: tuple  # red, green, blue, from 0 to 1
     mesh: bool = True  # otherwise it becomes background
-    size: float = 0.0  # upper bound of its elements' circumradii; 0: none
+    sizes: dict = field(default_factory=dict)  # lengths that are not 0, by the names in SIZES
 
 
-# The parameters of meshing that are settings, by their names in the CLI module. The segments have the others.
+# The parameters of meshing by their names in Slicer: those of single segments, and those of all. The inside of an isosurface has
+# the label 1 here.
 _DEFAULTS, *_ROWS = json.loads(Path(__file__).with_name("Parameters.json").read_text(encoding="utf-8"))
 TABLE = [{**_DEFAULTS, **row} for row in _ROWS]  # as Parameters/write_slicer.py writes it
-PARAMETERS = {p["slicer"]: p for p in TABLE if p["slicer"] not in ("", "insideLabel", "labels", "labelSizes", "minimumThickness", "shells")}
+SIZES = {p["slicer"]: p for p in TABLE if p["kind"] == "label-sizes"}
+PARAMETERS = {p["slicer"]: p for p in TABLE if p["kind"] not in ("labels", "label-sizes") and p["slicer"] not in ("", "insideLabel")}
 
 
 def _default(parameter):
-    """As the CLI module has it: flags that are on by default are words there, and 0 is no number."""
+    """0 is no number."""
     kind, default = parameter["kind"], parameter["default"]
     if kind == "flag":
-        return "on" if default == "on" else False
+        return default == "on"
     return {"real": float, "whole": int}.get(kind, str)(default or ("" if kind == "interface-sizes" else 0))
 
 
@@ -72,13 +74,12 @@ class _Texts:
 
 DEFAULTS = {**{name: _default(parameter) for name, parameter in PARAMETERS.items()}, "quality": False}
 Settings = make_dataclass("Settings", [(name, type(value), value) for name, value in DEFAULTS.items()], bases=(_Texts,))
-Settings.__doc__ = """Lengths are in millimetres. Names and defaults are those of the CLI module, whose description says more.
-Interface sizes are those of parseInterfaceSizes()."""
+Settings.__doc__ = """Lengths are in millimetres. Names and defaults are those of the table. Interface sizes are those of parseInterfaceSizes()."""
 
 
 def _parse(text, default):
     try:
-        return text == "true" if isinstance(default, bool) else type(default)(text)
+        return text in ("true", "on") if isinstance(default, bool) else type(default)(text)
     except ValueError:
         return default  # a scene that was edited by hand
 
@@ -119,25 +120,34 @@ def mergeChoices(segments, stored):
     merged = []
     for segment in segments:
         choice = choices.get(segment.id, {})
-        merged.append(replace(segment, mesh=bool(choice.get("mesh", True)), size=float(choice.get("size", 0.0))))
+        sizes = {name: float(choice[name]) for name in SIZES if name in choice}
+        merged.append(replace(segment, mesh=bool(choice.get("mesh", True)), sizes=sizes))
     return merged
 
 
 def storeChoices(segments):
     """The choices as one text, for a parameter node."""
-    return json.dumps({segment.id: {"mesh": segment.mesh, "size": segment.size} for segment in segments})
+    return json.dumps({segment.id: {"mesh": segment.mesh, **segment.sizes} for segment in segments})
 
 
-def parseSize(text):
+def parseSize(text, isSigned=False):
     """The size that a user typed: 0 if nothing. Raises MeshingError."""
     text = text.strip().replace(",", ".")
     try:
         size = float(text) if text else 0.0
     except ValueError:
         size = math.nan
-    if not (math.isfinite(size) and size >= 0.0):
+    if not math.isfinite(size) or (size < 0.0 and not isSigned):
         raise MeshingError("'%s' is not a size: type a length in millimetres, or nothing for no bound" % text)
     return size
+
+
+def setSize(segment, name, text):
+    """What a user typed for one of SIZES. Raises MeshingError."""
+    size = parseSize(text, isSigned=SIZES[name]["range"][0] is None)
+    segment.sizes = {**segment.sizes, name: size}
+    if not size:
+        del segment.sizes[name]
 
 
 def meshedSegments(segments):
@@ -167,10 +177,12 @@ def programOptions(segments, settings, isosurface=False):
         idle += OF_GRADING
     if settings.elements > 0:
         idle += ("delta",)
-    options = ["--label-size=%d=%r" % (label, segment.size) for label, segment in enumerate(chosen, 1) if segment.size > 0.0]
-    options += ["--interface-size=" + item for item in parseInterfaceSizes(settings.interfaceSizes, chosen)]
+    options = ["--%s=%d=%r" % (SIZES[name]["option"], label, size)
+               for label, segment in enumerate(chosen, 1) for name, size in segment.sizes.items()]
     for name, parameter in PARAMETERS.items():
-        if name not in idle and name != "interfaceSizes":
+        if parameter["kind"] == "interface-sizes":
+            options += ["--%s=%s" % (parameter["option"], item) for item in parseInterfaceSizes(getattr(settings, name), chosen)]
+        elif name not in idle:
             options += _options(parameter, getattr(settings, name))
     if settings.quality and "quality" not in idle:
         options.append("--hausdorff")
@@ -181,7 +193,7 @@ def _options(parameter, value):
     """Of a flag, if it is not as it is by default; of a number, unless it stands for none."""
     name = "--" + (parameter["option"] or "smoothing")  # of grey values and of labels, it is one option
     if parameter["kind"] == "flag":
-        return [name] if (value in (True, "on")) != (parameter["default"] == "on") else []
+        return [name] if value != (parameter["default"] == "on") else []
     if value == 0 and parameter["default"] == "" and parameter["zero"]:
         return []
     return ["%s=%s" % (name, value)]
@@ -215,11 +227,21 @@ def _splitNames(text, labels):
 
 # --- The mesh -----------------------------------------------------------------------------------------------
 
-def labelMesh(mesh, segments):
-    """Adds the names and colours of the segments as field data: LabelValues, LabelNames, LabelColors."""
+def segmentsByLabel(segments, figures):
+    """What has which label in the mesh: the segments that are meshed, and the shells that the program's statistics have."""
+    labels = dict(enumerate(meshedSegments(segments), 1))
+    for row in figures.get("repair", ()):
+        if "new_label" in row:
+            inner = labels[row["label"]]
+            labels[row["new_label"]] = replace(inner, name=inner.name + " shell", color=tuple((1 + c) / 2 for c in inner.color))
+    return labels
+
+
+def labelMesh(mesh, labels):
+    """Adds the names and colours of segments, by their labels, as field data: LabelValues, LabelNames, LabelColors."""
     values, names, colors = vtkIntArray(), vtkStringArray(), vtkDoubleArray()
     colors.SetNumberOfComponents(3)
-    for label, segment in enumerate(meshedSegments(segments), 1):
+    for label, segment in labels.items():
         values.InsertNextValue(label)
         names.InsertNextValue(segment.name)
         colors.InsertNextTuple(segment.color)
@@ -253,15 +275,14 @@ def measureLabels(mesh):
             zip(values, np.bincount(places), np.bincount(places, volumes))]
 
 
-def describeMesh(mesh, segments):
-    """Lines for the log."""
-    names = {label: segment.name for label, segment in enumerate(meshedSegments(segments), 1)}
+def describeMesh(mesh, labels):
+    """Lines for the log about a mesh of segments, which have labels."""
     figures = measureLabels(mesh)
     lines = ["%d tetrahedra with %d nodes" % (mesh.GetNumberOfCells(), mesh.GetNumberOfPoints())]
-    lines += ["  %s: %d tetrahedra, %.4g mm³" % (names.get(f.label, "label %d" % f.label), f.elements, f.volume)
-              for f in figures]
+    lines += ["  %s: %d tetrahedra, %.4g mm³" % (labels[f.label].name if f.label in labels else "label %d" % f.label,
+                                                f.elements, f.volume) for f in figures]
     found = {f.label for f in figures}
-    lines += ["  %s: none; it is too small for this delta" % name for label, name in names.items() if label not in found]
+    lines += ["  %s: none; it is too small for this delta" % segment.name for label, segment in labels.items() if label not in found]
     return lines
 
 

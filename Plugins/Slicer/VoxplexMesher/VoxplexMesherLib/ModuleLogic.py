@@ -18,7 +18,7 @@ import slicer
 from slicer.ScriptedLoadableModule import ScriptedLoadableModuleLogic
 
 from VoxplexMesherLib.Logic import (MeshingError, MeshingLogic, Phase, RunState, Settings, describeMesh, describeQuality,
-                                    mergeChoices, storeChoices)
+                                    mergeChoices, segmentsByLabel, storeChoices)
 from VoxplexMesherLib.Program import ProgramRunner
 from VoxplexMesherLib.Scene import insideOf, readSegments, showMesh, showSurfaces
 
@@ -88,13 +88,14 @@ class VoxplexMesherLogic(ScriptedLoadableModuleLogic):
 
     def _show(self, state):
         meshNode, surfacesNode, segments = self._outputs
+        labels = segmentsByLabel(segments, state.figures)
         try:
-            for line in describeMesh(meshNode.GetMesh(), segments) + describeQuality(state.figures):
+            for line in describeMesh(meshNode.GetMesh(), labels) + describeQuality(state.figures):
                 self.log(line)
         except MeshingError as error:
             self.log("Failed: %s" % error)
             return RunState(Phase.FAILED, message=str(error))
-        showMesh(meshNode, segments)
+        showMesh(meshNode, labels)
         if surfacesNode is not None:
             showSurfaces(surfacesNode)
         return state

@@ -98,30 +98,29 @@ def loadMesh(modelNode, path):
     modelNode.SetAndObserveMesh(mesh)
 
 
-def makeColorNode(name, segments):
-    """A colour table with the names and colours of the segments that are meshed."""
-    chosen = meshedSegments(segments)
+def makeColorNode(name, labels):
+    """A colour table with the names and colours of segments, by their labels."""
     node = slicer.mrmlScene.CreateNodeByClass("vtkMRMLColorTableNode")
     node.SetName(slicer.mrmlScene.GenerateUniqueName(name))
     node.SetTypeToUser()
     node.HideFromEditorsOff()
     slicer.mrmlScene.AddNode(node)
     node.UnRegister(None)
-    node.SetNumberOfColors(len(chosen) + 1)
+    node.SetNumberOfColors(max(labels) + 1)
     if not hasattr(node, "SetColorDefined"):  # which newer versions have in its place
         node.SetNamesInitialised(True)
     node.SetColor(0, "background", 0.0, 0.0, 0.0, 0.0)
-    for label, segment in enumerate(chosen, 1):
+    for label, segment in labels.items():
         node.SetColor(label, segment.name, *segment.color, 1.0)
     return node
 
 
-def showMesh(modelNode, segments):
-    """Gives the mesh the names of the segments, and shows each tetrahedron in the colour of its own."""
-    labelMesh(modelNode.GetMesh(), segments)
+def showMesh(modelNode, labels):
+    """Gives the mesh the names of segments, by their labels, and shows each tetrahedron in the colour of its own."""
+    labelMesh(modelNode.GetMesh(), labels)
     modelNode.CreateDefaultDisplayNodes()
     displayNode = modelNode.GetDisplayNode()
-    colorNode = makeColorNode(modelNode.GetName() + " labels", segments)
+    colorNode = makeColorNode(modelNode.GetName() + " labels", labels)
     displayNode.SetAndObserveColorNodeID(colorNode.GetID())
     displayNode.SetActiveScalar("Label", vtk.vtkAssignAttribute.CELL_DATA)
     displayNode.SetScalarRangeFlag(slicer.vtkMRMLDisplayNode.UseColorNodeScalarRange)

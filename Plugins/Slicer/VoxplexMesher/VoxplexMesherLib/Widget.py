@@ -8,20 +8,20 @@ import vtk
 from slicer.ScriptedLoadableModule import ScriptedLoadableModuleWidget
 from slicer.util import VTKObservationMixin
 
-from VoxplexMesherLib.Logic import DEFAULTS, PARAMETERS, MeshingError, Phase, parseSize
+from VoxplexMesherLib.Logic import DEFAULTS, PARAMETERS, SIZES, MeshingError, Phase, setSize
 from VoxplexMesherLib.ModuleLogic import VoxplexMesherLogic
 from VoxplexMesherLib.Scene import isVolume
 
-COLUMNS = ("Segment", "Mesh it", "Size (mm)")
-NAME, MESH, SIZE = range(3)
+COLUMNS = ["Segment", "Mesh it", *(p["label"].replace(" of labels", "") + " (mm)" for p in SIZES.values())]
+NAME, MESH, FIRST_SIZE = range(3)
 SEGMENT_ID = qt.Qt.UserRole
 LARGEST_WHOLE = 2147483647
 LARGEST_REAL = 1e9
 # Settings by the kind of widget that shows them, which is called after the setting.
 SPIN_BOXES = [name for name, default in DEFAULTS.items() if type(default) in (int, float)]
-COMBO_BOXES = ["grading", "inside"]
-SWITCHES = [name for name, default in DEFAULTS.items() if default in ("on", "off")]  # check boxes
-FLAGS = [name for name, default in DEFAULTS.items() if type(default) is bool]  # check boxes of true or false
+COMBO_BOXES = [name for name, parameter in PARAMETERS.items() if parameter["kind"] == "word"]
+CHECK_BOXES = [name for name, default in DEFAULTS.items() if type(default) is bool]
+LINE_EDITS = [name for name, parameter in PARAMETERS.items() if parameter["kind"] == "interface-sizes"]
 # The sections for groups of parameters; the others are advanced.
 SECTIONS = {"Grey-value images": "Isosurface", **{title: title for title in (
     "Sampling distance and element sizes", "Shapes and small objects")}}
@@ -96,8 +96,9 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.segmentTable = qt.QTableWidget()
         self.segmentTable.setColumnCount(len(COLUMNS))
         self.segmentTable.setHorizontalHeaderLabels(list(COLUMNS))
-        self.segmentTable.setToolTip("Segments that are not checked become background. Size is the upper bound of the "
-                                     "circumradii of a segment's elements; leave it empty for none.")
+        self.segmentTable.setToolTip("Segments that are not checked become background. Leave a length empty for none.")
+        for column, parameter in enumerate(SIZES.values(), FIRST_SIZE):
+            self.segmentTable.horizontalHeaderItem(column).setToolTip(parameter["slicer_help"].rpartition(" (")[0])
         self.segmentTable.connect("itemChanged(QTableWidgetItem*)", self.onSegmentItemChanged)
         form.addRow(self.segmentTable)
 
@@ -119,8 +120,8 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         elif name in COMBO_BOXES:
             kind, box, signal = "ComboBox", qt.QComboBox(), "currentIndexChanged(int)"
             for word in parameter["words"]:
-                box.addItem(CHOICES[word], word)
-        elif name in SWITCHES + FLAGS:
+                box.addItem(CHOICES.get(word, word), word)
+        elif name in CHECK_BOXES:
             kind, box, signal = "CheckBox", qt.QCheckBox(), "toggled(bool)"
         else:
             kind, box, signal = "LineEdit", qt.QLineEdit(), "editingFinished()"
@@ -232,11 +233,10 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         for name in COMBO_BOXES:
             box = getattr(self, name + "ComboBox")
             box.currentIndex = max(0, box.findData(getattr(settings, name)))
-        for name in SWITCHES:
-            getattr(self, name + "CheckBox").checked = getattr(settings, name) == "on"
-        for name in FLAGS:
+        for name in CHECK_BOXES:
             getattr(self, name + "CheckBox").checked = getattr(settings, name)
-        self.interfaceSizesLineEdit.text = settings.interfaceSizes
+        for name in LINE_EDITS:
+            getattr(self, name + "LineEdit").text = getattr(settings, name)
         self.fillSegmentTable(self.logic.segments(node))
         self.enableWhatCounts(settings)
         self.updateButtons()
@@ -250,7 +250,7 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.smoothingSpinBox.enabled = self.qualityCheckBox.enabled = not ofVolume
         self.deltaSpinBox.enabled = settings.elements == 0
         self.featureRatioSpinBox.enabled = self.largestFeatureSpinBox.enabled = settings.grading == "lfs"
-        self.optimiseSecondsSpinBox.enabled = settings.optimise == "on"
+        self.optimiseSecondsSpinBox.enabled = settings.optimise
 
     def inputNode(self):
         """The node of the parameter node that is meshed, or None."""
@@ -273,11 +273,10 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         for name in COMBO_BOXES:
             box = getattr(self, name + "ComboBox")
             node.SetParameter(name, box.itemData(box.currentIndex))
-        for name in SWITCHES:
-            node.SetParameter(name, "on" if getattr(self, name + "CheckBox").checked else "off")
-        for name in FLAGS:
+        for name in CHECK_BOXES:
             node.SetParameter(name, "true" if getattr(self, name + "CheckBox").checked else "false")
-        node.SetParameter("interfaceSizes", self.interfaceSizesLineEdit.text)
+        for name in LINE_EDITS:
+            node.SetParameter(name, getattr(self, name + "LineEdit").text)
         node.EndModify(wasModifying)
 
     # --- The table of segments ---
@@ -292,8 +291,8 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
             mesh = qt.QTableWidgetItem()
             mesh.setFlags(qt.Qt.ItemIsEnabled | qt.Qt.ItemIsUserCheckable)
             mesh.setCheckState(qt.Qt.Checked if segment.mesh else qt.Qt.Unchecked)
-            size = qt.QTableWidgetItem("%g" % segment.size if segment.size else "")
-            for column, item in ((NAME, name), (MESH, mesh), (SIZE, size)):
+            sizes = [qt.QTableWidgetItem("%g" % segment.sizes[size] if size in segment.sizes else "") for size in SIZES]
+            for column, item in enumerate([name, mesh, *sizes]):
                 self.segmentTable.setItem(row, column, item)
 
     def onSegmentItemChanged(self, item):
@@ -303,9 +302,9 @@ class VoxplexMesherWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         segment = segments[self.segmentTable.item(item.row(), NAME).data(SEGMENT_ID)]
         if item.column() == MESH:
             segment.mesh = item.checkState() == qt.Qt.Checked
-        elif item.column() == SIZE:
+        elif item.column() >= FIRST_SIZE:
             try:
-                segment.size = parseSize(item.text())
+                setSize(segment, list(SIZES)[item.column() - FIRST_SIZE], item.text())
             except MeshingError as error:
                 slicer.util.errorDisplay(str(error))
         self.logic.storeSegments(self.parameterNode, segments.values())
