@@ -4,7 +4,7 @@
 #ifndef voxplex_ImagePhantoms_h
 #define voxplex_ImagePhantoms_h
 
-#include "Image/GridGeometry.h"
+#include "Phantom.h"
 
 #include <cmath>
 #include <cstdint>
@@ -14,32 +14,7 @@
 namespace voxplex::phantoms
 {
 
-/** A grid, and what label each point of its frame has. */
-struct ImagePhantom
-{
-  GridGeometry<3> Grid;
-  std::function<std::uint8_t(const Point<3>&)> Label;
-
-  /** Labels of all voxels: x varies fastest. */
-  std::vector<std::uint8_t> Scalars() const
-  {
-    const auto& n = this->Grid.Dimensions;
-    std::vector<std::uint8_t> scalars;
-    scalars.reserve(static_cast<std::size_t>(n[0] * n[1] * n[2]));
-    for (std::int64_t k = 0; k < n[2]; ++k)
-    {
-      for (std::int64_t j = 0; j < n[1]; ++j)
-      {
-        for (std::int64_t i = 0; i < n[0]; ++i)
-        {
-          scalars.push_back(this->Label(this->Grid.ToFrame(
-            { static_cast<double>(i), static_cast<double>(j), static_cast<double>(k) })));
-        }
-      }
-    }
-    return scalars;
-  }
-};
+using ImagePhantom = PhantomOf<3>;
 
 /** The voxels of one of the table's images, divided by `coarsening` along each axis. */
 inline GridGeometry<3> CoarsenedGrid(

@@ -4,7 +4,7 @@
 #ifndef voxplex_SpaceTimePhantoms_h
 #define voxplex_SpaceTimePhantoms_h
 
-#include "Image/GridGeometry.h"
+#include "Phantom.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,35 +18,7 @@
 namespace voxplex::phantoms
 {
 
-/** A grid, and what label each point of its frame has. */
-struct SpaceTimePhantom
-{
-  GridGeometry<4> Grid;
-  std::function<std::uint8_t(const Point<4>&)> Label;
-
-  /** Labels of all voxels: x varies fastest, then y, z, t. */
-  std::vector<std::uint8_t> Scalars() const
-  {
-    const auto& n = this->Grid.Dimensions;
-    std::vector<std::uint8_t> scalars;
-    scalars.reserve(static_cast<std::size_t>(n[0] * n[1] * n[2] * n[3]));
-    for (std::int64_t l = 0; l < n[3]; ++l)
-    {
-      for (std::int64_t k = 0; k < n[2]; ++k)
-      {
-        for (std::int64_t j = 0; j < n[1]; ++j)
-        {
-          for (std::int64_t i = 0; i < n[0]; ++i)
-          {
-            scalars.push_back(this->Label(this->Grid.ToFrame({ static_cast<double>(i),
-              static_cast<double>(j), static_cast<double>(k), static_cast<double>(l) })));
-          }
-        }
-      }
-    }
-    return scalars;
-  }
-};
+using SpaceTimePhantom = PhantomOf<4>;
 
 /** The same phantom where a unit of time is as long as `scale` units of length. */
 inline SpaceTimePhantom WithTimeScale(SpaceTimePhantom phantom, double scale)

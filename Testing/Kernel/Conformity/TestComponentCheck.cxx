@@ -9,6 +9,7 @@
 #include "Image/DropComponents.h"
 #include "Mesh/MeshElements.h"
 #include "MeshChecks.h"
+#include "MeshRuns.h"
 #include "Mesher/ImageMesher.h"
 #include "Phantoms.h"
 #include "Quality/LostComponents.h"
@@ -180,12 +181,8 @@ void ExpectComponentsOfFloodFill(const LabelImage<D>& image, const std::array<do
 SimplexMesh<3> Mesh(
   const LabelImage<3>& image, const MeshingOptions<3>& options, MeshingStatistics& statistics)
 {
-  ImageMesher<3> mesher(options);
-  SimplexMesh<3> mesh;
-  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  const std::vector<std::string> complaints = checks::Complaints(mesh);
-  EXPECT_TRUE(complaints.empty()) << complaints.front();
-  statistics = mesher.Statistics();
+  const SimplexMesh<3> mesh = checks::MeshOf(image, options, &statistics);
+  checks::ExpectSound(mesh);
   std::size_t aboveBound = 0;
   for (std::size_t t = 0; t < mesh.Simplices.size(); ++t)
   {
@@ -232,21 +229,14 @@ struct Islands
     const std::int64_t n = 40;
     const auto grid = GridGeometry<3>::Orthogonal({ n, n, n }, spacing);
     const auto island = [=](std::int64_t i) { return i % 12 >= 6 && i % 12 < 6 + side; };
-    std::vector<std::uint8_t> scalars;
-    for (std::int64_t k = 0; k < n; ++k)
-    {
-      for (std::int64_t j = 0; j < n; ++j)
+    const auto outside = [=](std::int64_t x) { return x < 2 || x >= n - 2; };
+    this->Image = phantoms::OfVoxels(grid,
+      [&](const auto& v)
       {
-        for (std::int64_t i = 0; i < n; ++i)
-        {
-          const auto outside = [=](std::int64_t x) { return x < 2 || x >= n - 2; };
-          scalars.push_back(outside(i) || outside(j) || outside(k) ? 0
-              : island(i) && island(j) && island(k)                ? 2
-                                                                   : 1);
-        }
-      }
-    }
-    this->Image = LabelImage<3>::FromScalars<std::uint8_t>(scalars, grid);
+        return std::any_of(v.begin(), v.end(), outside) ? 0
+          : std::all_of(v.begin(), v.end(), island)     ? 2
+                                                        : 1;
+      });
     for (const std::int64_t k : { 6, 18, 30 })
     {
       for (const std::int64_t j : { 6, 18, 30 })
@@ -430,8 +420,7 @@ TEST(ComponentCheck, KeepsIslandsThatAreSmallBesideDelta)
   const Islands islands(2);
   for (const unsigned threads : { 1u, 4u })
   {
-    MeshingOptions<3> options;
-    options.Sampling.Delta = 5.0;
+    MeshingOptions<3> options = checks::WithDelta<3>(5.0);
     options.Team.Threads = threads;
     options.Team.Reproducible =
       threads > 1; // else numbers of seeds and elements vary from run to run
@@ -461,8 +450,7 @@ TEST(ComponentCheck, KeepsIslandsThatAreSmallBesideDelta)
 TEST(ComponentCheck, LeavesSmallerOnesAlone)
 {
   const Islands islands(2);
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 5.0;
+  MeshingOptions<3> options = checks::WithDelta<3>(5.0);
   options.Components.Smallest = 9;
   options.Components.Exact = true;
   MeshingStatistics statistics;
@@ -482,8 +470,7 @@ TEST(ComponentCheck, KeepsSingleVoxelsIfAsked)
   for (const Point<3>& spacing : { Point<3>{ 1.0, 1.0, 1.0 }, Point<3>{ 0.3, 0.3, 1.0 } })
   {
     const Islands islands(1, spacing);
-    MeshingOptions<3> options;
-    options.Sampling.Delta = 3.0;
+    MeshingOptions<3> options = checks::WithDelta<3>(3.0);
     options.Components.Smallest = 1;
     MeshingStatistics statistics;
     const SimplexMesh<3> mesh = Mesh(islands.Image, options, statistics);
@@ -495,8 +482,7 @@ TEST(ComponentCheck, KeepsSingleVoxelsIfAsked)
 //------------------------------------------------------------------------------------------------
 TEST(ComponentCheck, KeepsASheetThatIsThinBesideDelta)
 {
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 6.0;
+  MeshingOptions<3> options = checks::WithDelta<3>(6.0);
   MeshingStatistics statistics;
   const LabelImage<3> image = phantoms::Sheet(20);
   const SimplexMesh<3> mesh = Mesh(image, options, statistics);
@@ -518,8 +504,7 @@ TEST(ComponentCheck, GoesOnUntilNothingIsLost)
       });
   for (const unsigned threads : { 1u, 4u })
   {
-    MeshingOptions<3> options;
-    options.Sampling.Delta = 3.0;
+    MeshingOptions<3> options = checks::WithDelta<3>(3.0);
     options.Components.Smallest = 1;
     options.Team.Threads = threads;
     MeshingStatistics statistics;
@@ -548,8 +533,7 @@ TEST(ComponentCheck, LooksAtRepairedInterfaces)
     const Components<3> components(image);
     for (const double delta : { 1.5, 4.0 })
     {
-      MeshingOptions<3> options;
-      options.Sampling.Delta = delta;
+      MeshingOptions<3> options = checks::WithDelta<3>(delta);
       options.Components.Smallest = 1;
       MeshingStatistics statistics;
       const SimplexMesh<3> mesh = Mesh(image, options, statistics);
@@ -573,8 +557,7 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
     islands.Image, islands.Image, domain.GetSites(), domain, sizing, local, {});
   ComponentCheck<3> check(
     islands.Image, components, sizing, 8, false, true, sampling, counts, 2, {});
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 5.0;
+  MeshingOptions<3> options = checks::WithDelta<3>(5.0);
   MeshingStatistics statistics;
   SimplexMesh<3> mesh = Mesh(islands.Image, options, statistics);
   EXPECT_TRUE(check.FindLost(mesh).empty());
@@ -647,8 +630,7 @@ TEST(ComponentCheck, SaysWhichComponentsHaveNoElement)
 TEST(ComponentCheck, ChangesNothingWhereDeltaIsFineEnough)
 {
   const LabelImage<3> image = phantoms::NestedBalls(18.0);
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 1.0;
+  MeshingOptions<3> options = checks::WithDelta<3>(1.0);
   MeshingStatistics statistics;
   const SimplexMesh<3> mesh = Mesh(image, options, statistics);
   EXPECT_EQ(statistics.Components.Found, 3u);

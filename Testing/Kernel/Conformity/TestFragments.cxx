@@ -11,6 +11,7 @@
 #include "Geometry/SimplexQuality.h"
 #include "Image/Components.h"
 #include "InterfaceChecks.h"
+#include "MeshRuns.h"
 #include "Mesher/ImageMesher.h"
 #include "Optimisation/OpenRidges.h"
 #include "Phantoms.h"
@@ -86,27 +87,21 @@ struct LabelledMesh
 /** A block with four wavy rods, less than three voxels thick: much thinner than the block. */
 LabelImage<3> BlockWithRods()
 {
-  std::vector<std::uint8_t> labels;
   const std::pair<double, double> rods[] = { { 12.0, 12.0 }, { 30.0, 14.0 }, { 14.0, 32.0 },
     { 34.0, 34.0 } };
-  for (int z = 0; z < 48; ++z)
-  {
-    for (int y = 0; y < 48; ++y)
+  return phantoms::Make(phantoms::Cube(48),
+    [&](const Point<3>& p) -> std::int16_t
     {
-      for (int x = 0; x < 48; ++x)
+      const auto [x, y, z] = p;
+      bool inside = x > 4 && x < 28 && y > 4 && y < 44 && z > 4 && z < 44;
+      for (const auto& [cy, cz] : rods)
       {
-        bool inside = x > 4 && x < 28 && y > 4 && y < 44 && z > 4 && z < 44;
-        for (const auto& [cy, cz] : rods)
-        {
-          const double dy = y - cy - 3.0 * std::sin(x / 4.0);
-          const double dz = z - cz - 3.0 * std::cos(x / 5.0);
-          inside = inside || (x >= 28 && x < 46 && dy * dy + dz * dz < 1.3 * 1.3);
-        }
-        labels.push_back(inside ? 1 : 0);
+        const double dy = y - cy - 3.0 * std::sin(x / 4.0);
+        const double dz = z - cz - 3.0 * std::cos(x / 5.0);
+        inside = inside || (x >= 28 && x < 46 && dy * dy + dz * dz < 1.3 * 1.3);
       }
-    }
-  }
-  return LabelImage<3>::FromScalars(std::span<const std::uint8_t>(labels), phantoms::Cube(48));
+      return inside ? 1 : 0;
+    });
 }
 
 /** The number of fragments of a mesh of one label. */
@@ -137,12 +132,9 @@ std::size_t NumberOfFragments(const SimplexMesh<3>& mesh)
 
 std::size_t FragmentsOfBlockWithRods(bool exact)
 {
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 6.0;
+  MeshingOptions<3> options = WithDelta<3>(6.0);
   options.Components.Exact = exact;
-  SimplexMesh<3> mesh;
-  ImageMesher<3> mesher(options);
-  EXPECT_EQ(mesher.Run(BlockWithRods(), mesh), MeshingOutcome::Done);
+  const SimplexMesh<3> mesh = MeshOf(BlockWithRods(), options);
   const std::size_t number = NumberOfFragments(mesh);
   EXPECT_EQ(CountFragments(mesh), (std::map<std::int64_t, std::uint64_t>{ { 1, number } }));
   return number;
@@ -224,30 +216,18 @@ LabelImage<3> ImageOf(const Voxels& voxels, std::uint8_t around, const Point<3>&
       n[a] = std::max(n[a], voxel[a] + 5);
     }
   }
-  std::vector<std::uint8_t> labels;
-  for (std::int64_t z = 0; z < n[2]; ++z)
-  {
-    for (std::int64_t y = 0; y < n[1]; ++y)
-    {
-      for (std::int64_t x = 0; x < n[0]; ++x)
-      {
-        labels.push_back(voxels.contains({ x, y, z }) ? 1 : around);
-      }
-    }
-  }
-  return LabelImage<3>::FromScalars(
-    std::span<const std::uint8_t>(labels), GridGeometry<3>::Orthogonal(n, spacing));
+  return phantoms::OfVoxels(GridGeometry<3>::Orthogonal(n, spacing),
+    [&](const auto& voxel) { return voxels.contains(voxel) ? 1 : around; });
 }
 
 /** Meshes an image. Each component must be in the mesh, and broken ones must be listed. */
 SimplexMesh<3> MeshListed(const LabelImage<3>& image, const MeshingOptions<3>& options,
   std::vector<BrokenComponent>& broken)
 {
-  SimplexMesh<3> mesh;
-  ImageMesher<3> mesher(options);
-  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  EXPECT_TRUE(mesher.Statistics().Components.Lost.empty());
-  broken = mesher.Statistics().Components.Broken;
+  MeshingStatistics statistics;
+  SimplexMesh<3> mesh = MeshOf(image, options, &statistics);
+  EXPECT_TRUE(statistics.Components.Lost.empty());
+  broken = statistics.Components.Broken;
   return mesh;
 }
 
@@ -354,8 +334,7 @@ TEST(Pieces, VesselsOfAVoxelHoldTogetherIfTheyAreToBeExact)
         const LabelImage<3> image = ImageOf(voxels, around, spacing);
         for (const double delta : { 1.0, 2.0, 8.0 })
         {
-          MeshingOptions<3> options;
-          options.Sampling.Delta = delta;
+          MeshingOptions<3> options = WithDelta<3>(delta);
           options.Components.Exact = true;
           std::vector<BrokenComponent> broken;
           const SimplexMesh<3> mesh = MeshListed(image, options, broken);

@@ -10,6 +10,7 @@
 #include "Domain/InterfacePoints.h"
 #include "InterfaceChecks.h"
 #include "Mesh/SimplexLabels.h"
+#include "MeshRuns.h"
 #include "Quality/InterfaceDistance.h"
 #include "RefinementChecks.h"
 #include "Sanitizers.h"
@@ -154,16 +155,13 @@ TEST(InterfaceDistances, KeepsGradedMeshesNear)
     const LabelImage<3> image = Blobs(seed);
     const std::vector<Point<3>> faces = VoxelFaceCentres(image, 1);
     double distances[2];
-    MeshingOptions<3> options;
-    options.Sampling.Delta = 1.2;
+    MeshingOptions<3> options = WithDelta<3>(1.2);
     options.Sampling.Grading.Mode = GradingMode::LocalFeatureSize;
     options.Sampling.Grading.Ratio = 2.0;
     for (const unsigned rounds : { 0u, 5u })
     {
       options.Interfaces.Rounds = rounds;
-      SimplexMesh<3> mesh;
-      ImageMesher<3> mesher(options);
-      ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+      const SimplexMesh<3> mesh = MeshOf(image, options);
       const unsigned k = rounds > 0 ? 1 : 0;
       distances[k] = MeasureHausdorff(mesh, faces, nullptr, 1).ImageToMesh.Maximum;
       elements[k] += mesh.Simplices.size();
@@ -180,18 +178,14 @@ TEST(InterfaceDistances, KeepsGradedMeshesNear)
 TEST(InterfaceDistances, KeepsGradedBallsNear)
 {
   const LabelImage<3> image = phantoms::Ball(14.0);
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 1.5;
+  MeshingOptions<3> options = WithDelta<3>(1.5);
   options.Sampling.Grading.Mode = GradingMode::LocalFeatureSize;
   options.Sampling.Grading.Ratio = 2.0;
-  SimplexMesh<3> mesh;
-  ASSERT_EQ(ImageMesher<3>(options).Run(image, mesh), MeshingOutcome::Done);
+  const SimplexMesh<3> mesh = MeshOf(image, options);
   const HausdorffFigures figures = MeasureHausdorff(mesh, VoxelFaceCentres(image, 1), nullptr, 1);
   EXPECT_LE(figures.ImageToMesh.Maximum, 1.1 * 1.15 * options.Sampling.Delta);
   options.Sampling.Grading.Mode = GradingMode::Uniform;
-  SimplexMesh<3> uniform;
-  ASSERT_EQ(ImageMesher<3>(options).Run(image, uniform), MeshingOutcome::Done);
-  EXPECT_LT(mesh.Simplices.size(), uniform.Simplices.size() / 3);
+  EXPECT_LT(mesh.Simplices.size(), MeshOf(image, options).Simplices.size() / 3);
 }
 
 TEST(InterfaceDistances, LeavesManifoldBoundaries)
@@ -331,10 +325,7 @@ TEST(InterfaceDistances, ReachesAsFarInShearedImages)
     const LabelImage<3> image = phantoms::Make(
       grid, [&](const Point<3>& p) -> std::int16_t { return Distance(p, centre) < 11.0 ? 1 : 0; });
     const ImageDomain<3> domain(image, 1.0);
-    MeshingOptions<3> options;
-    options.Sampling.Delta = delta;
-    SimplexMesh<3> mesh;
-    ASSERT_EQ(ImageMesher<3>(options).Run(image, mesh), MeshingOutcome::Done);
+    const SimplexMesh<3> mesh = MeshOf(image, WithDelta<3>(delta));
     std::size_t all = 0;
     for (std::size_t f = 0; f < mesh.Facets.size(); f += 7)
     {

@@ -117,14 +117,7 @@ void ExpectVerticesOfFacets(const Domain<3>& domain, double delta)
     MarkInterfaceVertices<3>(mesh, labels, threads, {});
     EXPECT_EQ(MarkedVertices(mesh), expected);
   }
-  std::vector<SimplexId> all;
-  for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
-  {
-    if (mesh.IsAlive(s))
-    {
-      all.push_back(s);
-    }
-  }
+  std::vector<SimplexId> all = AliveIn(mesh);
   for (VertexId v = 0; v < mesh.VertexIdEnd(); ++v)
   {
     mesh.SetOnInterface(v, v % 2 == 0);

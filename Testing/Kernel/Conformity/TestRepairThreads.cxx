@@ -3,6 +3,7 @@
 // Several threads mend edges that are not manifold, with the result of one.
 #include "Conformity/ManifoldRepair.h"
 #include "Domain/ImageDomain.h"
+#include "Phantoms.h"
 #include "RefinementChecks.h"
 #include "RepairTesting.h"
 
@@ -28,19 +29,10 @@ std::array<std::size_t, 2> CheckThatThreadsDoNotMatter(std::size_t size)
   std::vector<std::uint8_t> cubes(size * size * size / 64);
   std::generate(
     cubes.begin(), cubes.end(), [&] { return static_cast<std::uint8_t>(generator() % 4); });
-  std::vector<std::uint8_t> voxels;
-  for (std::size_t k = 0; k < size; ++k)
-  {
-    for (std::size_t j = 0; j < size; ++j)
-    {
-      for (std::size_t i = 0; i < size; ++i)
-      {
-        voxels.push_back(cubes[i / 4 + size / 4 * (j / 4 + size / 4 * (k / 4))]);
-      }
-    }
-  }
-  const auto image = LabelImage<3>::FromScalars<std::uint8_t>(
-    voxels, GridGeometry<3>::Orthogonal(GridGeometry<3>::Index{ n, n, n }, { 1.0, 1.0, 1.0 }));
+  const auto image = phantoms::OfVoxels(phantoms::Cube(n),
+    [&](const auto& v) {
+      return cubes[static_cast<std::size_t>(v[0] / 4 + n / 4 * (v[1] / 4 + n / 4 * (v[2] / 4)))];
+    });
   const ImageDomain<3> domain(image, 1.0);
   const auto context = Refined(domain, 3.0);
   const SimplexLabels before = LabelSimplices<3>(context->Mesh, domain);

@@ -3,6 +3,7 @@
 // Labels of a voxel or a few are in the mesh, however large delta is.
 #include "Image/Components.h"
 #include "MeshChecks.h"
+#include "MeshRuns.h"
 #include "Mesher/ImageMesher.h"
 #include "Phantoms.h"
 #include "Quality/LostComponents.h"
@@ -71,17 +72,15 @@ LabelImage<3> Specks(unsigned seed, std::int16_t around, const Point<3>& spacing
 void ExpectAllLabels(
   const LabelImage<3>& image, const MeshingOptions<3>& options, const std::string& name)
 {
-  ImageMesher<3> mesher(options);
-  SimplexMesh<3> mesh;
-  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  const std::vector<std::string> complaints = checks::Complaints(mesh);
-  EXPECT_TRUE(complaints.empty()) << name << ": " << complaints.front();
+  SCOPED_TRACE(name);
+  MeshingStatistics statistics;
+  const SimplexMesh<3> mesh = checks::MeshOf(image, options, &statistics);
+  checks::ExpectSound(mesh);
   const std::set<std::int64_t> labels(mesh.Labels.begin(), mesh.Labels.end());
-  EXPECT_EQ(labels.size(), static_cast<std::size_t>(image.NumberOfLabels())) << name;
-  EXPECT_TRUE(mesher.Statistics().Components.Lost.empty()) << name;
+  EXPECT_EQ(labels.size(), static_cast<std::size_t>(image.NumberOfLabels()));
+  EXPECT_TRUE(statistics.Components.Lost.empty());
   const Components<3> components(image);
-  EXPECT_TRUE(FindLostComponents(components, image, mesh, components.FindWanted(1000), 1).empty())
-    << name;
+  EXPECT_TRUE(FindLostComponents(components, image, mesh, components.FindWanted(1000), 1).empty());
 }
 
 } // namespace
@@ -133,8 +132,7 @@ TEST(SmallLabels, AreInTheMesh)
       const Point<3> spacing =
         seed % 2 == 0 ? Point<3>{ 1.0, 1.0, 1.0 } : Point<3>{ 0.5, 1.0, 1.7 };
       const LabelImage<3> image = Specks(seed++, around, spacing);
-      MeshingOptions<3> options;
-      options.Sampling.Delta = delta;
+      MeshingOptions<3> options = checks::WithDelta<3>(delta);
       const std::string name = std::to_string(delta) + " in " + std::to_string(around);
       ExpectAllLabels(image, options, name);
       options.Optimisation.Run = true;
@@ -157,8 +155,7 @@ TEST(SmallLabels, OfAThreeLeggedShapeIsInTheMesh)
   EXPECT_EQ(image.Counts()[1], 4);
   for (const double delta : { 0.5, 1.5, 4.0 })
   {
-    MeshingOptions<3> options;
-    options.Sampling.Delta = delta;
+    MeshingOptions<3> options = checks::WithDelta<3>(delta);
     ExpectAllLabels(image, options, std::to_string(delta));
   }
 }
@@ -167,14 +164,12 @@ TEST(SmallLabels, OfAThreeLeggedShapeIsInTheMesh)
 TEST(SmallLabels, AreLeftToChanceOnRequest)
 {
   const LabelImage<3> image = Specks(9, 1, { 1.0, 1.0, 1.0 });
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 12.0;
+  MeshingOptions<3> options = checks::WithDelta<3>(12.0);
   options.Components.Smallest = 0;
   options.Interfaces.Rounds = 0;
   options.Interfaces.SampleJunctions = false;
-  ImageMesher<3> mesher(options);
-  SimplexMesh<3> mesh;
-  ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
+  MeshingStatistics statistics;
+  const SimplexMesh<3> mesh = checks::MeshOf(image, options, &statistics);
   EXPECT_LT(std::set<std::int64_t>(mesh.Labels.begin(), mesh.Labels.end()).size(), 20u);
-  EXPECT_EQ(mesher.Statistics().Components.Found, 0u);
+  EXPECT_EQ(statistics.Components.Found, 0u);
 }

@@ -3,6 +3,7 @@
 // Space-time: components of the image and of frames, and interfaces far from the mesh.
 #include "Conformity/DistanceCheck.h"
 #include "Image/Components.h"
+#include "Phantoms.h"
 #include "Quality/LostComponents.h"
 #include "SpaceTimeCases.h"
 
@@ -26,28 +27,6 @@ namespace
 
 using Index = GridGeometry<4>::Index;
 
-LabelImage<4> ImageOf(
-  const GridGeometry<4>& grid, const std::function<std::uint8_t(const Index&)>& labelAt)
-{
-  std::vector<std::uint8_t> scalars;
-  const Index& n = grid.Dimensions;
-  Index v{};
-  for (v[3] = 0; v[3] < n[3]; ++v[3])
-  {
-    for (v[2] = 0; v[2] < n[2]; ++v[2])
-    {
-      for (v[1] = 0; v[1] < n[1]; ++v[1])
-      {
-        for (v[0] = 0; v[0] < n[0]; ++v[0])
-        {
-          scalars.push_back(labelAt(v));
-        }
-      }
-    }
-  }
-  return LabelImage<4>::FromScalars<std::uint8_t>(scalars, grid);
-}
-
 GridGeometry<4> Voxels(std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t frames)
 {
   return GridGeometry<4>::Orthogonal({ x, y, z, frames }, { 1.0, 1.0, 1.0, 1.0 });
@@ -68,7 +47,7 @@ LabelImage<4> Specks()
     { { 18, 6, 6 }, { 0.0, 0.7, 0.0 }, 2.0, 3, 3 }, { { 6, 18, 6 }, { 0.0, 0.0, 0.0 }, 1.5, 7, 9 },
     { { 18, 18, 6 }, { -0.6, 0.0, 0.4 }, 1.7, 2, 8 },
     { { 12, 12, 18 }, { 0.9, -0.9, 0.0 }, 1.5, 1, 5 } };
-  return ImageOf(Voxels(24, 24, 24, 10),
+  return phantoms::OfVoxels(Voxels(24, 24, 24, 10),
     [&](const Index& v)
     {
       for (std::size_t s = 0; s < specks.size(); ++s)
@@ -166,7 +145,7 @@ double LargestDistance(const LabelImage<4>& image, const SimplexMesh<4>& mesh)
 TEST(SpaceTimeComponents, OfFramesAreJoinedInSpaceOnly)
 {
   std::mt19937 random(3);
-  const LabelImage<4> image = ImageOf(
+  const LabelImage<4> image = phantoms::OfVoxels(
     Voxels(9, 8, 7, 5), [&](const Index&) { return static_cast<std::uint8_t>(random() % 3 / 2); });
   const Components<4> whole(image);
   const Components<4> ofFrames(image, 2, {}, 3);
@@ -175,29 +154,20 @@ TEST(SpaceTimeComponents, OfFramesAreJoinedInSpaceOnly)
   EXPECT_GT(ofFrames.All().size(), whole.All().size());
   const Index& n = image.CropDimensions();
   std::map<std::uint32_t, std::int64_t> frameOf;
-  Index v{};
-  for (v[3] = 0; v[3] < n[3]; ++v[3])
+  for (std::size_t k = 0; k < CountCells(n); ++k)
   {
-    for (v[2] = 0; v[2] < n[2]; ++v[2])
+    const Index v = IndexAt(k, n);
+    const std::uint32_t own = ofFrames.At(v);
+    if (own == Components<4>::None)
     {
-      for (v[1] = 0; v[1] < n[1]; ++v[1])
-      {
-        for (v[0] = 0; v[0] < n[0]; ++v[0])
-        {
-          const std::uint32_t own = ofFrames.At(v);
-          if (own == Components<4>::None)
-          {
-            continue;
-          }
-          EXPECT_EQ(frameOf.emplace(own, v[3]).first->second, v[3]);
-          for (std::size_t a = 0; a < 3; ++a)
-          {
-            Index next = v;
-            ++next[a];
-            EXPECT_TRUE(image.At(next) != image.At(v) || ofFrames.At(next) == own);
-          }
-        }
-      }
+      continue;
+    }
+    EXPECT_EQ(frameOf.emplace(own, v[3]).first->second, v[3]);
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      Index next = v;
+      ++next[a];
+      EXPECT_TRUE(image.At(next) != image.At(v) || ofFrames.At(next) == own);
     }
   }
 }
@@ -205,7 +175,7 @@ TEST(SpaceTimeComponents, OfFramesAreJoinedInSpaceOnly)
 TEST(SpaceTimeComponents, OfFramesAreLookedForInTheCut)
 {
   // Four components of one voxel: two in frame 2, one in frame 0 and one in frame 5.
-  const LabelImage<4> image = ImageOf(Voxels(12, 12, 12, 6),
+  const LabelImage<4> image = phantoms::OfVoxels(Voxels(12, 12, 12, 6),
     [](const Index& v)
     {
       return static_cast<std::uint8_t>(v == Index{ 3, 3, 3, 2 } || v == Index{ 9, 9, 9, 2 } ||
@@ -268,7 +238,7 @@ TEST(SpaceTimeChecks, InterfacesAreNearThoseOfTheImage)
   for (const bool isBall : { false, true })
   {
     SCOPED_TRACE(isBall);
-    const LabelImage<4> image = ImageOf(Voxels(30, 30, 24, 16),
+    const LabelImage<4> image = phantoms::OfVoxels(Voxels(30, 30, 24, 16),
       [&](const Index& v)
       {
         const auto t = static_cast<double>(v[3]);
@@ -290,7 +260,8 @@ TEST(SpaceTimeChecks, InterfacesAreNearThoseOfTheImage)
     // larger ratios.
     ExpectGood(mesh, image,
       { .RadiusEdge = statistics.Interfaces.NonManifoldOpened > 0 ? 2.5 : 2.0,
-        .FacetsOffInterface = 0.09, .VertexLinks = false });
+        .FacetsOffInterface = 0.09,
+        .VertexLinks = false });
 
     options.Interfaces.Rounds = 0;
     options.Components.Smallest = 0;

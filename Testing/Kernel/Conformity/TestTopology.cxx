@@ -4,6 +4,7 @@
 // stays together; and what is not kept is counted.
 #include "Image/LabelContacts.h"
 #include "Mesher/ImageMesher.h"
+#include "Phantoms.h"
 #include "Quality/ComponentPieces.h"
 
 #include <gtest/gtest.h>
@@ -27,22 +28,12 @@ using LabelOfVoxel = std::function<std::uint8_t(int, int, int)>;
 
 LabelImage<3> ImageOf(const LabelOfVoxel& labelOf)
 {
-  std::vector<std::uint8_t> labels;
-  for (int z = 0; z < Size; ++z)
-  {
-    for (int y = 0; y < Size; ++y)
-    {
-      for (int x = 0; x < Size; ++x)
-      {
-        labels.push_back(labelOf(x, y, z));
-      }
-    }
-  }
-  return LabelImage<3>::FromScalars(std::span<const std::uint8_t>(labels),
-    GridGeometry<3>::Orthogonal({ Size, Size, Size }, { 1.0, 1.0, 1.0 }));
+  return phantoms::OfVoxels(phantoms::Cube(Size),
+    [&](const auto& v)
+    { return labelOf(static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])); });
 }
 
-bool IsIn(int x, int low, int high)
+bool IsIn(std::int64_t x, int low, int high)
 {
   return x >= low && x <= high;
 }
@@ -124,24 +115,12 @@ TEST(Topology, LayersOfAVoxelAreKept)
 /** Two boxes, one voxel apart, in six frames. */
 LabelImage<4> BoxesApart()
 {
-  std::vector<std::uint8_t> labels;
-  const std::array<std::int64_t, 4> size{ 20, 14, 14, 6 };
-  for (int t = 0; t < size[3]; ++t)
-  {
-    for (int z = 0; z < size[2]; ++z)
+  return phantoms::OfVoxels(GridGeometry<4>::Orthogonal({ 20, 14, 14, 6 }, { 1.0, 1.0, 1.0, 1.0 }),
+    [](const auto& v)
     {
-      for (int y = 0; y < size[1]; ++y)
-      {
-        for (int x = 0; x < size[0]; ++x)
-        {
-          const bool isBeside = IsIn(y, 3, 10) && IsIn(z, 3, 10);
-          labels.push_back(isBeside && IsIn(x, 2, 8) ? 1 : isBeside && IsIn(x, 10, 16) ? 2 : 0);
-        }
-      }
-    }
-  }
-  return LabelImage<4>::FromScalars(std::span<const std::uint8_t>(labels),
-    GridGeometry<4>::Orthogonal(size, { 1.0, 1.0, 1.0, 1.0 }));
+      const bool isBeside = IsIn(v[1], 3, 10) && IsIn(v[2], 3, 10);
+      return isBeside && IsIn(v[0], 2, 8) ? 1 : isBeside && IsIn(v[0], 10, 16) ? 2 : 0;
+    });
 }
 
 // Dual edges lead beyond the first and the last frame; points there would break the triangulation.

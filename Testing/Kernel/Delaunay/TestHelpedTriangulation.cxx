@@ -206,15 +206,7 @@ void InsertAndCompareEverything(int points, int cells)
   const auto anywhere = [&]() { return RandomPoints<D>(1, 10.0, random).front(); };
   // Ties and points on the box, which have facets without neighbours in their cavities.
   std::uniform_int_distribution<int> node(0, cells);
-  const auto lattice = [&]()
-  {
-    Point<D> p;
-    for (double& x : p)
-    {
-      x = node(random) * 10.0 / cells;
-    }
-    return p;
-  };
+  const auto lattice = [&]() { return Drawn<D>([&] { return node(random) * 10.0 / cells; }); };
   for (const auto& [simplices, balls] :
     { std::pair{ std::size_t{ 1 }, Never }, { Never, std::size_t{ 1 } }, { 1, 1 }, { 6, 12 } })
   {

@@ -65,12 +65,8 @@ TEST(Joining, UnionFillsTheBoxAndNeighboursAreMutual)
       vertices += mesh.GetVertex(v).Alive ? 1 : 0;
     }
     EXPECT_EQ(vertices, 24u + 160u); // 8 of the corners and 40 points are common
-    for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
+    for (const SimplexId s : checks::AliveIn(mesh))
     {
-      if (!mesh.IsAlive(s))
-      {
-        continue;
-      }
       const auto& simplex = mesh.GetSimplex(s);
       volume += SignedVolume<4>(mesh.Points(simplex.V).data());
       for (unsigned i = 0; i < 5; ++i)

@@ -4,6 +4,7 @@
 #include "Delaunay/LinkCoordinates.h"
 #include "Geometry/Predicates.h"
 #include "Geometry/SimplexQuality.h"
+#include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -25,12 +26,7 @@ template <int D>
 Point<D> RandomPoint(std::mt19937_64& random)
 {
   std::uniform_real_distribution<double> coordinate(0.0, 1.0);
-  Point<D> p;
-  for (double& x : p)
-  {
-    x = coordinate(random);
-  }
-  return p;
+  return checks::Drawn<D>([&] { return coordinate(random); });
 }
 
 /** Normal of the facet of the first D points, on the side of the last one. */

@@ -23,16 +23,13 @@ template <int D>
 std::vector<std::uint64_t> Records(const Triangulation<D>& t)
 {
   std::vector<std::uint64_t> records;
-  for (SimplexId s = 0; s < t.SimplexIdEnd(); ++s)
+  for (const SimplexId s : AliveIn(t))
   {
-    if (t.IsAlive(s))
-    {
-      const auto& simplex = t.GetSimplex(s);
-      records.push_back(s);
-      records.push_back(t.State(s).Generation);
-      records.insert(records.end(), simplex.V.begin(), simplex.V.end());
-      records.insert(records.end(), simplex.N.begin(), simplex.N.end());
-    }
+    const auto& simplex = t.GetSimplex(s);
+    records.push_back(s);
+    records.push_back(t.State(s).Generation);
+    records.insert(records.end(), simplex.V.begin(), simplex.V.end());
+    records.insert(records.end(), simplex.N.begin(), simplex.N.end());
   }
   for (VertexId v = 0; v < t.VertexIdEnd(); ++v)
   {
@@ -51,9 +48,9 @@ std::set<VertexId> CavityVertices(const Triangulation<D>& t, const Point<D>& p)
 {
   typename Triangulation<D>::Worker worker(t);
   std::set<VertexId> vertices;
-  for (SimplexId s = 0; s < t.SimplexIdEnd(); ++s)
+  for (const SimplexId s : AliveIn(t))
   {
-    if (t.IsAlive(s) && t.InConflict(worker, s, p))
+    if (t.InConflict(worker, s, p))
     {
       vertices.insert(t.GetSimplex(s).V.begin(), t.GetSimplex(s).V.end());
     }
@@ -161,9 +158,9 @@ TEST_F(TwoWorkers, ADeadSimplexCannotBeLocked)
     std::uint32_t Generation;
   };
   std::vector<Entry> before;
-  for (SimplexId s = 0; s < this->T.SimplexIdEnd(); ++s)
+  for (const SimplexId s : AliveIn(this->T))
   {
-    if (this->T.IsAlive(s) && this->T.InConflict(this->Alone, s, p))
+    if (this->T.InConflict(this->Alone, s, p))
     {
       before.push_back({ s, this->T.State(s).Generation });
     }

@@ -110,12 +110,9 @@ std::vector<Point<D>> RefineHalves(bool atOnce, std::size_t number, SimplexSet<D
   ZoneThread<D> other(t, upper);
   std::vector<SimplexId> ofOne;
   std::vector<SimplexId> ofOther;
-  for (SimplexId s = 0; s < t.SimplexIdEnd(); ++s)
+  for (const SimplexId s : AliveIn(t))
   {
-    if (t.IsAlive(s))
-    {
-      (lower.Contains(t.Position(t.GetSimplex(s).V[0])) ? ofOne : ofOther).push_back(s);
-    }
+    (lower.Contains(t.Position(t.GetSimplex(s).V[0])) ? ofOne : ofOther).push_back(s);
   }
   if (atOnce)
   {

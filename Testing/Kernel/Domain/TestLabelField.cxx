@@ -4,6 +4,7 @@
 #include "Base/GridIndex.h"
 #include "Domain/LabelField.h"
 #include "Phantoms.h"
+#include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -151,11 +152,7 @@ void CheckFacesOfTiles(std::int64_t n, int labels, double tolerance)
   int mixed = 0;
   for (int trial = 0; trial < 15000; ++trial)
   {
-    Point<D> low;
-    for (double& x : low)
-    {
-      x = coordinate(random);
-    }
+    Point<D> low = checks::Drawn<D>([&] { return coordinate(random); });
     const std::size_t axis = static_cast<std::size_t>(trial) % D;
     low[axis] = tile * (1.0 + static_cast<double>(random() % faces));
     Point<D> high = low;

@@ -7,6 +7,7 @@
 #include "Image/DropComponents.h"
 #include "Image/IsosurfaceImage.h"
 #include "MeshRuns.h"
+#include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -349,11 +350,8 @@ TEST(ScalarField, ClosedHalfAVoxelBeyondTheBorder)
   std::mt19937 random(15);
   for (int i = 0; i < 500; ++i)
   {
-    Point<3> p;
-    for (double& x : p)
-    {
-      x = std::uniform_real_distribution<>(0.0, 7.9)(random);
-    }
+    const Point<3> p =
+      checks::Drawn<3>([&] { return std::uniform_real_distribution<>(0.0, 7.9)(random); });
     for (std::size_t a = 0; a < 3; ++a)
     {
       for (const double side : { -0.5, 9.5 })
@@ -596,11 +594,8 @@ TEST(IsosurfaceImage, SmoothingLeavesPlanesAndTakesNoise)
   int wrongDenoised = 0;
   for (int i = 0; i < 4000; ++i)
   {
-    Point<3> p;
-    for (double& x : p)
-    {
-      x = std::uniform_real_distribution<>(10.0, 29.0)(random);
-    }
+    const Point<3> p =
+      checks::Drawn<3>([&] { return std::uniform_real_distribution<>(10.0, 29.0)(random); });
     const double height = plane(p) - isovalue;
     const LabelId expected = height > 0.0 ? 1 : 0;
     if (std::abs(height) > 1e-3)

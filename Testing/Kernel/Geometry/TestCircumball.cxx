@@ -7,6 +7,7 @@
 #include "Geometry/Circumball.h"
 #include "Geometry/Predicates.h"
 #include "PredicateTesting.h"
+#include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -109,11 +110,7 @@ TYPED_TEST(CircumballTest, CertifiedBallsNeverContradictExactInSphere)
       Point<D> p = points[static_cast<std::size_t>(query) % points.size()];
       if (query >= 3)
       {
-        Point<D> direction;
-        for (double& x : direction)
-        {
-          x = normal(this->Engine);
-        }
+        const Point<D> direction = checks::Drawn<D>([&] { return normal(this->Engine); });
         const double offset = std::pow(10.0, -9.0 + 3.0 * uniform(this->Engine));
         const double radius = std::sqrt(ball.Radius2 / Dot(direction, direction)) *
           (query % 2 == 0 ? 1.0 + offset : 1.0 - offset);

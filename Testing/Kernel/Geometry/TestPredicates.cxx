@@ -7,6 +7,7 @@
 #include "Geometry/Predicates.h"
 #include "PredicateTesting.h"
 #include "Sanitizers.h"
+#include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -194,25 +195,14 @@ std::vector<Family<D>> Families(std::mt19937_64& engine)
   const auto random = [uniform](double center, double half)
   {
     return [uniform, center, half]
-    {
-      Point<D> p;
-      for (double& x : p)
-      {
-        x = uniform(center - half, center + half);
-      }
-      return p;
-    };
+    { return checks::Drawn<D>([&] { return uniform(center - half, center + half); }); };
   };
   const auto lattice = [&engine](int size, double spacing, double origin)
   {
     return [&engine, size, spacing, origin]
     {
-      Point<D> p;
-      for (double& x : p)
-      {
-        x = origin + spacing * static_cast<double>(engine() % static_cast<unsigned>(size));
-      }
-      return p;
+      return checks::Drawn<D>([&]
+        { return origin + spacing * static_cast<double>(engine() % static_cast<unsigned>(size)); });
     };
   };
   // Lattice points. Some of their coordinates are moved by up to two units in the last place.
@@ -268,12 +258,8 @@ std::vector<Family<D>> Families(std::mt19937_64& engine)
   {
     return [&engine, count]
     {
-      Point<D> p;
-      for (double& x : p)
-      {
-        x = std::ldexp(static_cast<double>(engine() >> (64 - count)), -20);
-      }
-      return p;
+      return checks::Drawn<D>(
+        [&] { return std::ldexp(static_cast<double>(engine() >> (64 - count)), -20); });
     };
   };
   std::vector<Family<D>> families = {

@@ -73,11 +73,7 @@ void ExpectPartition(const Tiling<D>& tiling, const std::vector<TileItem<D>>& it
   std::uniform_real_distribution<double> coordinate(-50.0, 250.0);
   for (int k = 0; k < 1000; ++k)
   {
-    Point<D> p;
-    for (double& x : p)
-    {
-      x = coordinate(random);
-    }
+    const Point<D> p = checks::Drawn<D>([&] { return coordinate(random); });
     EXPECT_EQ(std::count_if(tiles.begin(), tiles.end(),
                 [&](const Tile<D>& tile) { return tile.Extent.Contains(p); }),
       1);
@@ -220,17 +216,14 @@ TEST(CoarseLattice, BoundsCircumballsNearInterfaces)
   checks::ExpectSound(context.Mesh);
   std::size_t near = 0;
   std::size_t farther = 0;
-  for (SimplexId s = 0; s < context.Mesh.SimplexIdEnd(); ++s)
+  for (const SimplexId s : checks::AliveIn(context.Mesh))
   {
-    if (context.Mesh.IsAlive(s))
-    {
-      const Circumball<3> circumball = context.Mesh.GetCircumball(s);
-      const double radius = std::sqrt(circumball.Radius2);
-      const double distance = ball.DistanceBound(circumball.Center);
-      near += distance < radius ? 1 : 0;
-      ASSERT_LT(radius, distance < 5.0 ? 10.0 : 40.0);
-      farther += distance > 20.0 && radius > 8.0 ? 1 : 0;
-    }
+    const Circumball<3> circumball = context.Mesh.GetCircumball(s);
+    const double radius = std::sqrt(circumball.Radius2);
+    const double distance = ball.DistanceBound(circumball.Center);
+    near += distance < radius ? 1 : 0;
+    ASSERT_LT(radius, distance < 5.0 ? 10.0 : 40.0);
+    farther += distance > 20.0 && radius > 8.0 ? 1 : 0;
   }
   EXPECT_GT(near, 1000u);
   EXPECT_GT(farther, 10u) << "far from interfaces the lattice is coarser";

@@ -13,6 +13,7 @@
 #include "RefinementChecks.h"
 #include "RepairTesting.h"
 #include "Sanitizers.h"
+#include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -287,11 +288,7 @@ TEST(BorderFaces, HaveNoNotchesAtAnyInterface)
       const double y = between(13.0, 16.0);
       const Point<3> middle = { x, y, between(5.0, 9.0) };
       const double radius = between(9.0, 12.0);
-      Point<3> normal;
-      for (double& component : normal)
-      {
-        component = between(-1.0, 1.0);
-      }
+      const Point<3> normal = Drawn<3>([&] { return between(-1.0, 1.0); });
       const LabelImage<3> image = phantoms::CutHalves(grid, middle, radius, normal, 0.3);
       MeshingOptions<3> options = WithDelta<3>(1.6);
       options.Interfaces.Rounds = 0;

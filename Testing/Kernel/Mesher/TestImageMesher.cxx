@@ -390,8 +390,7 @@ TEST(ImageMesher, StatisticsSayWhatTheMeshHasAndLacks)
       const bool isVoxel = Distance2(p, Point<3>{ 2.0, 28.0, 2.0 }) < 0.5;
       return static_cast<std::int16_t>(isBall || isSpeck ? 3 : isVoxel ? 7 : 0);
     });
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 6.0;
+  MeshingOptions<3> options = WithDelta<3>(6.0);
   options.Components.Smallest = 0;
   options.Interfaces.Rounds = 0;
   ImageMesher<3> mesher(options);

@@ -259,8 +259,7 @@ TEST(IsosurfaceMeshing, SmallComponentsAreKeptOrLeftOut)
   EXPECT_TRUE(statistics.Components.Lost.empty());
   const auto isBeyond = [](const Point<3>& p) { return p[0] > 20.0; };
   EXPECT_TRUE(std::any_of(mesh.Points.begin(), mesh.Points.end(), isBeyond));
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 1.5;
+  MeshingOptions<3> options = WithDelta<3>(1.5);
   options.SmallestVolume = 100.0;
   ImageMesher<3> mesher(options);
   SimplexMesh<3> rest;

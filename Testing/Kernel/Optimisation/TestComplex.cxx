@@ -4,6 +4,7 @@
 #include "Base/Error.h"
 #include "ComplexOf.h"
 #include "MeshChecks.h"
+#include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -120,11 +121,7 @@ std::unique_ptr<Triangulation<D>> RandomTriangulation(std::size_t points)
   const auto rememberLast = [&] { hint = worker.Created[0]; };
   for (std::size_t i = 0; i < points; ++i)
   {
-    Point<D> p;
-    for (double& x : p)
-    {
-      x = uniform(random);
-    }
+    const Point<D> p = Drawn<D>([&] { return uniform(random); });
     const SimplexId seed = triangulation->FindConflict(worker, p, hint);
     EXPECT_EQ(triangulation->Insert(worker, p, VertexKind::Free, seed), InsertionOutcome::Inserted);
     rememberLast();
@@ -149,12 +146,8 @@ SimplexMesh<D> Expected(const Triangulation<D>& triangulation, const Domain<D>& 
 {
   std::map<SimplexId, LabelId> labels;
   std::map<VertexId, std::uint32_t> order;
-  for (SimplexId s = 0; s < triangulation.SimplexIdEnd(); ++s)
+  for (const SimplexId s : AliveIn(triangulation))
   {
-    if (!triangulation.IsAlive(s))
-    {
-      continue;
-    }
     const SimplexState& state = triangulation.State(s);
     const LabelId label =
       state.Labelled ? state.Label : image.Label(triangulation.GetCircumball(s).Center);
@@ -280,12 +273,8 @@ TEST(Complex, LabelsThatAreKnownAreNotAskedFor)
   const auto triangulation = RandomTriangulation<3>(500);
   const TwoLabels<3> image(0.1);
   std::size_t unknown = 0;
-  for (SimplexId s = 0; s < triangulation->SimplexIdEnd(); ++s)
+  for (const SimplexId s : AliveIn(*triangulation))
   {
-    if (!triangulation->IsAlive(s))
-    {
-      continue;
-    }
     if (s % 10 == 0)
     {
       ++unknown;

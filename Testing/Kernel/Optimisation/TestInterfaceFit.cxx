@@ -35,10 +35,7 @@ SimplexMesh<4> Mesh(const LabelImage<4>& image, MeshingOptions<4> options, bool 
 {
   options.Interfaces.Fit = fit;
   options.SpaceTime.Slivers.Fight = true;
-  ImageMesher<4> mesher(options);
-  SimplexMesh<4> mesh;
-  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  return mesh;
+  return MeshOf(image, options);
 }
 
 /** Points, vertices of interfaces that have moved, and the largest distance, in shortest edges. */

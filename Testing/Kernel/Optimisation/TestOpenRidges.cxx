@@ -8,7 +8,9 @@
 #include "InterfaceChecks.h"
 #include "Mesh/LabelledTriangulation.h"
 #include "Optimisation/OpenRidges.h"
+#include "Phantoms.h"
 #include "RefinementChecks.h"
+#include "RepairTesting.h"
 
 #include <algorithm>
 #include <array>
@@ -36,16 +38,6 @@ std::vector<InterfaceEdge> BadEdgesOf(const SimplexMesh<3>& mesh)
   return edges;
 }
 
-double TotalVolume(const SimplexMesh<3>& mesh)
-{
-  double volume = 0.0;
-  for (const auto& [label, part] : Volumes(mesh))
-  {
-    volume += part;
-  }
-  return volume;
-}
-
 /** A mesh before and after. */
 struct Opened
 {
@@ -67,8 +59,7 @@ struct Opened
   {
     EXPECT_TRUE(this->Left.empty());
     EXPECT_TRUE(BadEdges(this->After).empty());
-    const std::vector<std::string> complaints = Complaints(this->After);
-    EXPECT_TRUE(complaints.empty()) << complaints.front();
+    ExpectSound(this->After);
     const std::set<std::int64_t> labels(this->Before.Labels.begin(), this->Before.Labels.end());
     EXPECT_EQ(std::set<std::int64_t>(this->After.Labels.begin(), this->After.Labels.end()), labels);
     // Each tetrahedron keeps pieces with its label, and so does each part of a label.
@@ -102,32 +93,13 @@ public:
   /** @param number of labels besides background */
   SimplexLabels Labels(unsigned seed, unsigned number, bool withBackground) const
   {
-    std::mt19937 random(seed);
-    SimplexLabels labels = LabelSimplices<3>(this->Context->Mesh, this->Ball);
-    for (LabelId& label : labels)
-    {
-      const auto drawn = static_cast<LabelId>(random() % (number + (withBackground ? 1 : 0)));
-      label = label == 0 ? LabelId{ 0 } : static_cast<LabelId>(drawn + (withBackground ? 0 : 1));
-    }
-    return labels;
+    return Shuffled(
+      LabelSimplices<3>(this->Context->Mesh, this->Ball), seed, number, withBackground);
   }
 
   const BallDomain Ball;
   const std::unique_ptr<const RefinementContext<3>> Context;
 };
-
-/** Independent voxels with `labels` labels and background, all equally likely. */
-LabelImage<3> Noise(unsigned seed, std::int64_t side, unsigned labels)
-{
-  std::mt19937 random(seed);
-  std::vector<std::uint16_t> voxels(static_cast<std::size_t>(side * side * side));
-  for (std::uint16_t& voxel : voxels)
-  {
-    voxel = static_cast<std::uint16_t>(random() % (labels + 1));
-  }
-  return LabelImage<3>::FromScalars<std::uint16_t>(
-    voxels, GridGeometry<3>::Orthogonal({ side, side, side }, { 1.0, 1.0, 1.0 }));
-}
 
 } // namespace
 
@@ -412,16 +384,10 @@ TEST(ManifoldMeshes, HaveNoBadEdgesOnAnyImage)
     options.Optimisation.Run = seed % 2 == 0;
     options.Team.Threads = seed % 6 == 0 ? 4 : 1;
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", delta " << options.Sampling.Delta);
-    ImageMesher<3> mesher(options);
     SimplexMesh<3> mesh;
-    ASSERT_EQ(mesher.Run(Noise(seed, 8, 1 + seed % 7), mesh), MeshingOutcome::Done);
+    opened +=
+      ExpectRidgesOpened(phantoms::Noise(phantoms::Cube(8), seed, 1 + seed % 7), options, mesh);
     EXPECT_TRUE(BadEdges(mesh).empty());
-    const std::vector<std::string> complaints = Complaints(mesh);
-    EXPECT_TRUE(complaints.empty()) << complaints.front();
-    const InterfaceStatistics& figures = mesher.Statistics().Interfaces;
-    EXPECT_EQ(figures.NonManifoldLeft, 0u);
-    EXPECT_LE(figures.NonManifoldOpened, figures.NonManifoldRepaired);
-    opened += figures.NonManifoldOpened;
   }
   EXPECT_GT(opened, 10u);
 }
@@ -432,9 +398,9 @@ TEST(ManifoldMeshes, AreLeftAsTheyComeOnRequest)
   options.Sampling.Delta = 2.0;
   options.SmoothingSigma = 0.0;
   options.Interfaces.Manifold = false;
-  ImageMesher<3> mesher(options);
-  SimplexMesh<3> mesh;
-  ASSERT_EQ(mesher.Run(Noise(1, 8, 3), mesh), MeshingOutcome::Done);
+  MeshingStatistics statistics;
+  const SimplexMesh<3> mesh =
+    MeshOf(phantoms::Noise(phantoms::Cube(8), 1, 3), options, &statistics);
   EXPECT_FALSE(BadEdges(mesh).empty());
-  EXPECT_EQ(mesher.Statistics().Interfaces.NonManifoldRepaired, 0u);
+  EXPECT_EQ(statistics.Interfaces.NonManifoldRepaired, 0u);
 }

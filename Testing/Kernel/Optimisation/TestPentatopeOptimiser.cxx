@@ -362,9 +362,9 @@ TEST(PentatopeOptimiser, LeavesWhatIsOutsidePositive)
   PentatopeComplex complex = ComplexOf<4>(mesh, &domain);
   voxplex::OptimisePentatopes(complex, domain, image, {});
   std::size_t outside = 0;
-  for (std::uint32_t t = 0; t < complex.Cells.size(); ++t)
+  for (const std::uint32_t t : AliveIn(complex))
   {
-    if (complex.IsAlive(t) && complex.Labels[t] == 0)
+    if (complex.Labels[t] == 0)
     {
       ASSERT_GT(SignedVolume<4>(complex.PointsOf(complex.Cells[t].V).data()), 0.0);
       ++outside;

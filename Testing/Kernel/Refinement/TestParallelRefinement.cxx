@@ -107,12 +107,7 @@ std::uint64_t CountVertices(const Triangulation<3>& mesh, const std::set<VertexK
 
 std::uint64_t CountSimplices(const Triangulation<3>& mesh)
 {
-  std::uint64_t count = 0;
-  for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
-  {
-    count += mesh.IsAlive(s) ? 1 : 0;
-  }
-  return count;
+  return AliveIn(mesh).size();
 }
 
 /**

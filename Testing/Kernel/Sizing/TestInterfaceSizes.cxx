@@ -5,6 +5,7 @@
 #include "CallableSize.h"
 #include "Domain/ImageDomain.h"
 #include "MeshChecks.h"
+#include "MeshRuns.h"
 #include "Mesher/ImageMesher.h"
 #include "Phantoms.h"
 #include "Refinement/RefinementContext.h"
@@ -54,15 +55,12 @@ std::map<Interface, double> MeanEdges(const SimplexMesh<3>& mesh)
 SimplexMesh<3> Mesh(const LabelImage<3>& image, double delta, std::vector<InterfaceSize> sizes,
   double gradation = 0.3, unsigned threads = 1)
 {
-  MeshingOptions<3> options;
-  options.Sampling.Delta = delta;
+  MeshingOptions<3> options = checks::WithDelta<3>(delta);
   options.Sampling.InterfaceSizes = std::move(sizes);
   options.Sampling.Gradation = gradation;
   options.Team.Threads = threads;
-  ImageMesher<3> mesher(options);
-  SimplexMesh<3> mesh;
-  EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-  EXPECT_TRUE(checks::Complaints(mesh).empty());
+  const SimplexMesh<3> mesh = checks::MeshOf(image, options);
+  checks::ExpectSound(mesh);
   return mesh;
 }
 
@@ -270,14 +268,11 @@ TEST(InterfaceSizes, PassIntoEachOtherAtJunctions)
   // Points along the rim would make the facets beside it smaller with every gradation.
   const auto meshWith = [&](double gradation)
   {
-    MeshingOptions<3> options;
-    options.Sampling.Delta = 5.0;
+    MeshingOptions<3> options = checks::WithDelta<3>(5.0);
     options.Sampling.InterfaceSizes = { { 1, 2, 0.8 } };
     options.Sampling.Gradation = gradation;
     options.Interfaces.SampleJunctions = false;
-    SimplexMesh<3> mesh;
-    EXPECT_EQ(ImageMesher<3>(options).Run(image, mesh), MeshingOutcome::Done);
-    return mesh;
+    return checks::MeshOf(image, options);
   };
   const SimplexMesh<3> graded = meshWith(0.2);
   const SimplexMesh<3> stepping = meshWith(0.0);
@@ -297,17 +292,14 @@ TEST(InterfaceSizes, CoarseInterfacesStayCoarseWhenInspected)
   std::array<std::size_t, 2> elements;
   for (const unsigned rounds : { 0u, 5u })
   {
-    MeshingOptions<3> options;
-    options.Sampling.Delta = 1.0;
+    MeshingOptions<3> options = checks::WithDelta<3>(1.0);
     options.Sampling.InterfaceSizes = { { 200, 0, 6.0 } };
     options.Sampling.Gradation = 0.0;
     options.Interfaces.Rounds = rounds;
-    ImageMesher<3> mesher(options);
-    SimplexMesh<3> mesh;
-    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-    EXPECT_EQ(mesher.Statistics().LargestDelta, 6.0);
-    EXPECT_LE(mesher.Statistics().Interfaces.Seeds, 20u) << rounds;
-    elements[rounds > 0] = mesh.Simplices.size();
+    MeshingStatistics statistics;
+    elements[rounds > 0] = checks::MeshOf(image, options, &statistics).Simplices.size();
+    EXPECT_EQ(statistics.LargestDelta, 6.0);
+    EXPECT_LE(statistics.Interfaces.Seeds, 20u) << rounds;
   }
   EXPECT_NEAR(static_cast<double>(elements[1]) / static_cast<double>(elements[0]), 1.0, 0.01);
 }
@@ -321,14 +313,12 @@ TEST(InterfaceSizes, CoarseInterfacesDoNotUndoWhatFinerOnesNeed)
   };
   for (const auto& [image, sizes] : cases)
   {
-    MeshingOptions<3> options;
-    options.Sampling.Delta = 1.0;
+    MeshingOptions<3> options = checks::WithDelta<3>(1.0);
     options.Sampling.InterfaceSizes = sizes;
     options.Sampling.Gradation = 0.0;
-    ImageMesher<3> mesher(options);
-    SimplexMesh<3> mesh;
-    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-    const RuleStatistics& rules = mesher.Statistics().Rules;
+    MeshingStatistics statistics;
+    const SimplexMesh<3> mesh = checks::MeshOf(image, options, &statistics);
+    const RuleStatistics& rules = statistics.Rules;
     EXPECT_GT(rules.Removed, 20u) << "no test";
     EXPECT_LT(
       rules.Removed, mesh.Simplices.size() / 20); // otherwise 40 % of them, or more than there are
@@ -343,14 +333,12 @@ TEST(InterfaceSizes, JunctionsBelongToTheFinestInterface)
   const LabelImage<3> image = phantoms::TouchingLabels(30);
   const auto pointsWith = [&](std::vector<InterfaceSize> sizes)
   {
-    MeshingOptions<3> options;
-    options.Sampling.Delta = 4.0;
+    MeshingOptions<3> options = checks::WithDelta<3>(4.0);
     options.Sampling.InterfaceSizes = std::move(sizes);
     options.Sampling.Gradation = 0.0;
-    ImageMesher<3> mesher(options);
-    SimplexMesh<3> mesh;
-    EXPECT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-    return mesher.Statistics().Interfaces.JunctionSeeds;
+    MeshingStatistics statistics;
+    checks::MeshOf(image, options, &statistics);
+    return statistics.Interfaces.JunctionSeeds;
   };
   const std::uint64_t fine = pointsWith({ { 1, 2, 1.0 } });
   EXPECT_GT(fine, 3 * pointsWith({}));
@@ -365,14 +353,11 @@ TEST(InterfaceSizes, GoWithGradingByLocalFeatureSize)
   std::map<GradingMode, std::map<Interface, double>> edges;
   for (const GradingMode mode : { GradingMode::Uniform, GradingMode::LocalFeatureSize })
   {
-    MeshingOptions<3> options;
-    options.Sampling.Delta = 1.5;
+    MeshingOptions<3> options = checks::WithDelta<3>(1.5);
     options.Sampling.Grading.Mode = mode;
     options.Sampling.InterfaceSizes = { { 3, 7, 1.5 } };
-    ImageMesher<3> mesher(options);
-    SimplexMesh<3> mesh;
-    ASSERT_EQ(mesher.Run(image, mesh), MeshingOutcome::Done);
-    EXPECT_TRUE(checks::Complaints(mesh).empty());
+    const SimplexMesh<3> mesh = checks::MeshOf(image, options);
+    checks::ExpectSound(mesh);
     edges[mode] = MeanEdges(mesh);
   }
   auto& uniform = edges[GradingMode::Uniform];
@@ -385,8 +370,7 @@ TEST(InterfaceSizes, GoWithGradingByLocalFeatureSize)
 TEST(InterfaceSizes, SmallerElementSizesTakeTheirPlace)
 {
   const LabelImage<3> image = phantoms::NestedBalls(18.0);
-  MeshingOptions<3> options;
-  options.Sampling.Delta = 3.0;
+  MeshingOptions<3> options = checks::WithDelta<3>(3.0);
   options.Sampling.InterfaceSizes = { { 200, Any, 6.0 } };
   options.Sampling.Size =
     std::make_shared<CallableSize>([](const Point<3>&, std::int64_t) { return 1.5; });

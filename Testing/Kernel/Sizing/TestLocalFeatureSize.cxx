@@ -11,7 +11,7 @@
 #include "Sizing/Grading/MedialAxis.h"
 #include "Sizing/Grading/PointBounds.h"
 #include "Sizing/Grading/SampleTriangulation.h"
-#include "TriangulationVerifier.h"
+#include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -74,26 +74,6 @@ std::vector<Point<3>> RandomPoints(int count, unsigned seed)
     points.push_back({ x(random), x(random), x(random) });
   }
   return points;
-}
-
-/** The vertices of all simplices, by position. */
-std::set<std::array<Point<3>, 4>> Simplices(const Triangulation<3>& mesh)
-{
-  std::set<std::array<Point<3>, 4>> simplices;
-  for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
-  {
-    if (mesh.IsAlive(s))
-    {
-      std::array<Point<3>, 4> points;
-      for (unsigned i = 0; i < 4; ++i)
-      {
-        points[i] = mesh.Position(mesh.GetSimplex(s).V[i]);
-      }
-      std::sort(points.begin(), points.end());
-      simplices.insert(points);
-    }
-  }
-  return simplices;
 }
 
 } // namespace
@@ -199,13 +179,12 @@ TEST(SampleTriangulation, IsDelaunayAndHasEveryPointWithAnyThreads)
   std::vector<Point<3>> points = RandomPoints(9000, 1);
   const std::vector<Point<3>> sphere = Sphere({ 5.0, 5.0, 5.0 }, 4.0, 9000);
   points.insert(points.end(), sphere.begin(), sphere.end());
-  std::set<std::array<Point<3>, 4>> expected;
+  checks::SimplexSet<3> expected;
   for (const unsigned threads : { 1u, 2u, 4u })
   {
     const SampleTriangulation<3> triangulation(points, 1.0, threads, {});
     const Triangulation<3>& mesh = triangulation.Mesh();
-    const std::vector<std::string> complaints = checks::Verify(mesh);
-    ASSERT_TRUE(complaints.empty()) << complaints.front();
+    checks::ExpectSound(mesh);
     std::set<Point<3>> vertices;
     for (VertexId v = 0; v < mesh.VertexIdEnd(); ++v)
     {
@@ -220,7 +199,7 @@ TEST(SampleTriangulation, IsDelaunayAndHasEveryPointWithAnyThreads)
     {
       ASSERT_TRUE(vertices.count(p));
     }
-    const std::set<std::array<Point<3>, 4>> simplices = Simplices(mesh);
+    const checks::SimplexSet<3> simplices = checks::Simplices(mesh);
     expected = threads == 1 ? simplices : expected;
     EXPECT_EQ(simplices, expected) << threads << " threads";
   }
@@ -637,27 +616,10 @@ TEST(LocalFeatureSize, IsTheSameForAnyNumberOfThreads)
   const LabelImage<3> image = phantoms::Torus(20.0, 10.0);
   GradingParameters parameters = Parameters(1.5, 8.0);
   parameters.Tolerance = 1.6;
-  const LocalFeatureSize<3> one = Measure(image, parameters, 1);
-  for (const unsigned threads : { 2u, 5u })
-  {
-    const LocalFeatureSize<3> other = Measure(image, parameters, threads);
-    EXPECT_EQ(one.Sample(), other.Sample());
-    EXPECT_EQ(one.Sizes(), other.Sizes());
-    EXPECT_EQ(one.NumberOfPoles(), other.NumberOfPoles());
-    EXPECT_EQ(one.Largest(), other.Largest());
-    for (const Point<3>& p : one.Sample())
-    {
-      ASSERT_EQ(one.Delta().At(p), other.Delta().At(p));
-    }
-  }
+  checks::ExpectSameSizes(image, parameters);
 }
 
 TEST(LocalFeatureSize, CanBeStopped)
 {
-  const LabelImage<3> image = phantoms::Ball(10.0);
-  const ImageDomain<3> domain(image, 1.0);
-  std::stop_source stop;
-  stop.request_stop();
-  EXPECT_THROW(
-    LocalFeatureSize<3>(image, domain, Parameters(1.0, 10.0), 2, stop.get_token()), Cancelled);
+  checks::ExpectStop(phantoms::Ball(10.0));
 }

@@ -10,7 +10,7 @@
 #include "Sizing/Grading/LocalFeatureSize.h"
 #include "Sizing/Grading/MedialAxis.h"
 #include "Sizing/Grading/SampleTriangulation.h"
-#include "TriangulationVerifier.h"
+#include "TriangulationChecks.h"
 
 #include <gtest/gtest.h>
 
@@ -92,27 +92,13 @@ TEST(SpaceTimeSamples, AreTriangulatedTheSameByAnyThreads)
   {
     points.push_back({ x(random), x(random), x(random), k % 2 == 0 ? 5.0 : x(random) });
   }
-  std::set<std::array<Point<4>, 5>> expected;
+  checks::SimplexSet<4> expected;
   for (const unsigned threads : { 1u, 3u })
   {
     const SampleTriangulation<4> triangulation(points, 1.0, threads, {});
     const Triangulation<4>& mesh = triangulation.Mesh();
-    const std::vector<std::string> complaints = checks::Verify(mesh);
-    ASSERT_TRUE(complaints.empty()) << complaints.front();
-    std::set<std::array<Point<4>, 5>> simplices;
-    for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
-    {
-      if (mesh.IsAlive(s))
-      {
-        std::array<Point<4>, 5> corners;
-        for (unsigned i = 0; i < 5; ++i)
-        {
-          corners[i] = mesh.Position(mesh.GetSimplex(s).V[i]);
-        }
-        std::sort(corners.begin(), corners.end());
-        simplices.insert(corners);
-      }
-    }
+    checks::ExpectSound(mesh);
+    const checks::SimplexSet<4> simplices = checks::Simplices(mesh);
     expected = threads == 1 ? simplices : expected;
     EXPECT_EQ(simplices, expected);
   }
@@ -223,19 +209,7 @@ TEST(SpaceTimeFeatureSize, IsTheSameForAnyNumberOfThreads)
     LabelImage<4>::FromScalars<std::uint8_t>(phantom.Scalars(), phantom.Grid);
   GradingParameters parameters = Parameters(2.0, 8.0);
   parameters.Tolerance = 0.6;
-  const LocalFeatureSize<4> one = Measure(image, parameters, 1);
-  EXPECT_GT(one.NumberOfPoles(), 100u);
-  for (const unsigned threads : { 2u, 5u })
-  {
-    const LocalFeatureSize<4> other = Measure(image, parameters, threads);
-    EXPECT_EQ(one.Sample(), other.Sample());
-    EXPECT_EQ(one.Sizes(), other.Sizes());
-    EXPECT_EQ(one.NumberOfPoles(), other.NumberOfPoles());
-    for (const Point<4>& p : one.Sample())
-    {
-      ASSERT_EQ(one.Delta().At(p), other.Delta().At(p));
-    }
-  }
+  checks::ExpectSameSizes(image, parameters, 101);
 }
 
 TEST(SpaceTimeFeatureSize, OfFewSamplesIsWhatIsAskedFor)
@@ -260,10 +234,5 @@ TEST(SpaceTimeFeatureSize, OfFewSamplesIsWhatIsAskedFor)
 
 TEST(SpaceTimeFeatureSize, CanBeStopped)
 {
-  const LabelImage<4> image = RestingBall();
-  const ImageDomain<4> domain(image, 1.0);
-  std::stop_source stop;
-  stop.request_stop();
-  EXPECT_THROW(
-    LocalFeatureSize<4>(image, domain, Parameters(1.0, 10.0), 2, stop.get_token()), Cancelled);
+  checks::ExpectStop(RestingBall());
 }

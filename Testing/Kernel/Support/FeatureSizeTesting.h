@@ -4,11 +4,15 @@
 #ifndef voxplex_FeatureSizeTesting_h
 #define voxplex_FeatureSizeTesting_h
 
+#include "Base/Error.h"
 #include "Domain/ImageDomain.h"
 #include "Sizing/Grading/LocalFeatureSize.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstddef>
+#include <stop_token>
 #include <vector>
 
 namespace voxplex::checks
@@ -52,6 +56,37 @@ std::vector<double> SizesWhere(const LocalFeatureSize<D>& lfs, Admits&& admits)
     }
   }
   return sizes;
+}
+
+/** For any number of threads. */
+template <int D>
+void ExpectSameSizes(
+  const LabelImage<D>& image, const GradingParameters& parameters, std::size_t leastPoles = 0)
+{
+  const LocalFeatureSize<D> one = Measure(image, parameters, 1);
+  EXPECT_GE(one.NumberOfPoles(), leastPoles);
+  for (const unsigned threads : { 2u, 5u })
+  {
+    const LocalFeatureSize<D> other = Measure(image, parameters, threads);
+    EXPECT_EQ(one.Sample(), other.Sample());
+    EXPECT_EQ(one.Sizes(), other.Sizes());
+    EXPECT_EQ(one.NumberOfPoles(), other.NumberOfPoles());
+    EXPECT_EQ(one.Largest(), other.Largest());
+    for (const Point<D>& p : one.Sample())
+    {
+      ASSERT_EQ(one.Delta().At(p), other.Delta().At(p));
+    }
+  }
+}
+
+template <int D>
+void ExpectStop(const LabelImage<D>& image)
+{
+  const ImageDomain<D> domain(image, 1.0);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(
+    LocalFeatureSize<D>(image, domain, Parameters(1.0, 10.0), 2, stop.get_token()), Cancelled);
 }
 
 } // namespace voxplex::checks

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -22,6 +23,30 @@
 
 namespace voxplex::checks
 {
+
+/** The simplices of a triangulation, or the cells of a complex, that are alive. */
+template <typename Mesh>
+std::vector<std::uint32_t> AliveIn(const Mesh& mesh)
+{
+  std::uint32_t end = 0;
+  if constexpr (requires { mesh.SimplexIdEnd(); })
+  {
+    end = mesh.SimplexIdEnd();
+  }
+  else
+  {
+    end = static_cast<std::uint32_t>(mesh.Cells.size());
+  }
+  std::vector<std::uint32_t> alive;
+  for (std::uint32_t s = 0; s < end; ++s)
+  {
+    if (mesh.IsAlive(s))
+    {
+      alive.push_back(s);
+    }
+  }
+  return alive;
+}
 
 /** The same numbers, in the same order. */
 template <int D>

@@ -41,6 +41,26 @@ inline LabelImage<3> Make(const GridGeometry<3>& grid,
     Sample<std::int16_t>(grid, label), grid, selection);
 }
 
+/** A label image whose voxels have the label that a function gives their index. */
+template <int D, typename Function>
+LabelImage<D> OfVoxels(const GridGeometry<D>& grid, Function&& label)
+{
+  std::vector<std::uint8_t> labels(CountCells(grid.Dimensions));
+  for (std::size_t k = 0; k < labels.size(); ++k)
+  {
+    labels[k] = static_cast<std::uint8_t>(label(IndexAt(k, grid.Dimensions)));
+  }
+  return LabelImage<D>::template FromScalars<std::uint8_t>(labels, grid);
+}
+
+/** Independent voxels with `labels` labels and background, all equally likely. */
+template <int D>
+LabelImage<D> Noise(const GridGeometry<D>& grid, unsigned seed, unsigned labels)
+{
+  std::mt19937 random(seed);
+  return OfVoxels(grid, [&](const auto&) { return random() % (labels + 1); });
+}
+
 inline GridGeometry<3> Cube(std::int64_t n, double spacing = 1.0)
 {
   return GridGeometry<3>::Orthogonal({ n, n, n }, { spacing, spacing, spacing });

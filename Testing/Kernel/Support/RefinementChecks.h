@@ -100,12 +100,8 @@ void ExpectNoRuleApplies(const RefinementContext<D>& context, const BallDomainOf
       ASSERT_GE(Distance(features[i], features[j]), context.Sizing.SpacingFloor());
     }
   }
-  for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
+  for (const SimplexId s : AliveIn(mesh))
   {
-    if (!mesh.IsAlive(s))
-    {
-      continue;
-    }
     const Circumball<D> c = mesh.GetCircumball(s);
     const double radius = std::sqrt(c.Radius2);
     const double distance = std::abs(Ball::Norm(c.Center) - ball.R);

@@ -37,18 +37,15 @@ template <int D>
 SimplexSet<D> Simplices(const Triangulation<D>& t)
 {
   SimplexSet<D> simplices;
-  for (SimplexId s = 0; s < t.SimplexIdEnd(); ++s)
+  for (const SimplexId s : AliveIn(t))
   {
-    if (t.IsAlive(s))
+    std::array<Point<D>, D + 1> points;
+    for (unsigned i = 0; i <= D; ++i)
     {
-      std::array<Point<D>, D + 1> points;
-      for (unsigned i = 0; i <= D; ++i)
-      {
-        points[i] = t.Position(t.GetSimplex(s).V[i]);
-      }
-      std::sort(points.begin(), points.end());
-      simplices.insert(points);
+      points[i] = t.Position(t.GetSimplex(s).V[i]);
     }
+    std::sort(points.begin(), points.end());
+    simplices.insert(points);
   }
   return simplices;
 }
@@ -77,12 +74,8 @@ void ExpectDelaunay(const Triangulation<D>& t, double size)
   const std::vector<Point<D>> points = Points(t);
   double volume = 0.0;
   std::set<Point<D>> used;
-  for (SimplexId s = 0; s < t.SimplexIdEnd(); ++s)
+  for (const SimplexId s : AliveIn(t))
   {
-    if (!t.IsAlive(s))
-    {
-      continue;
-    }
     std::array<const Point<D>*, D + 1> p;
     for (unsigned i = 0; i <= D; ++i)
     {
@@ -138,6 +131,18 @@ VertexId FindVertex(const Triangulation<D>& t, const Point<D>& p)
   return None;
 }
 
+/** A point of numbers that are drawn one after the other. */
+template <int D, typename Draw>
+Point<D> Drawn(Draw&& draw)
+{
+  Point<D> p;
+  for (double& x : p)
+  {
+    x = draw();
+  }
+  return p;
+}
+
 template <int D>
 std::vector<Point<D>> RandomPoints(int n, double size, std::mt19937& random)
 {
@@ -145,10 +150,7 @@ std::vector<Point<D>> RandomPoints(int n, double size, std::mt19937& random)
   std::vector<Point<D>> points(static_cast<std::size_t>(n));
   for (Point<D>& p : points)
   {
-    for (double& x : p)
-    {
-      x = uniform(random);
-    }
+    p = Drawn<D>([&] { return uniform(random); });
   }
   return points;
 }
@@ -161,12 +163,7 @@ std::vector<Point<D>> LatticePoints(int n, int side, double spacing, std::mt1993
   std::set<Point<D>> points;
   while (points.size() < static_cast<std::size_t>(n))
   {
-    Point<D> p;
-    for (double& x : p)
-    {
-      x = spacing * uniform(random);
-    }
-    points.insert(p);
+    points.insert(Drawn<D>([&] { return spacing * uniform(random); }));
   }
   std::vector<Point<D>> shuffled(points.begin(), points.end());
   std::shuffle(shuffled.begin(), shuffled.end(), random);

@@ -48,13 +48,10 @@ protected:
   void PushAll()
   {
     this->One.Kernel.Created.Clear();
-    for (SimplexId s = 0; s < this->Context.Mesh.SimplexIdEnd(); ++s)
+    for (const SimplexId s : AliveIn(this->Context.Mesh))
     {
-      if (this->Context.Mesh.IsAlive(s))
-      {
-        this->One.Kernel.Created.ReserveMore(1);
-        this->One.Kernel.Created.Push(s);
-      }
+      this->One.Kernel.Created.ReserveMore(1);
+      this->One.Kernel.Created.Push(s);
     }
     this->Rules.ScreenCreated();
   }
@@ -172,9 +169,9 @@ TEST_F(RulesInContention, AContendedRemovalIsPutOff)
       const Circumball<3> ball = mesh.GetCircumball(e.Id);
       Point<3> z;
       this->Ball.ClosestSurfacePoint(ball.Center, 0, z);
-      for (SimplexId s = 0; s < mesh.SimplexIdEnd(); ++s)
+      for (const SimplexId s : AliveIn(mesh))
       {
-        if (mesh.IsAlive(s) && mesh.InConflict(this->One.Kernel, s, z))
+        if (mesh.InConflict(this->One.Kernel, s, z))
         {
           cavity.insert(mesh.GetSimplex(s).V.begin(), mesh.GetSimplex(s).V.end());
         }

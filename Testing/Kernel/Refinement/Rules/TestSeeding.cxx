@@ -104,14 +104,7 @@ TEST(Seeding, LivingSimplicesAreOrderedForAnyNumberOfThreads)
   const std::vector<SimplexId> byOne = LivingAlongCurve(context.Mesh, 1);
   std::vector<SimplexId> sorted = byOne;
   std::sort(sorted.begin(), sorted.end());
-  std::vector<SimplexId> living;
-  for (SimplexId s = 0; s < context.Mesh.SimplexIdEnd(); ++s)
-  {
-    if (context.Mesh.IsAlive(s))
-    {
-      living.push_back(s);
-    }
-  }
+  std::vector<SimplexId> living = AliveIn(context.Mesh);
   EXPECT_EQ(sorted, living);
   for (const unsigned threads : { 2u, 8u })
   {

@@ -54,12 +54,9 @@ Result<D> Refine(double radius, double delta, unsigned threads)
       result.Positions.push_back(context.Mesh.Position(v));
     }
   }
-  for (SimplexId s = 0; s < context.Mesh.SimplexIdEnd(); ++s)
+  for (const SimplexId s : AliveIn(context.Mesh))
   {
-    if (context.Mesh.IsAlive(s))
-    {
-      result.Simplices.push_back(context.Mesh.GetSimplex(s).V);
-    }
+    result.Simplices.push_back(context.Mesh.GetSimplex(s).V);
   }
   result.Evaluated = refiner.GetRuleStatistics().Evaluated;
   ExpectNothingLeft<Rules>(context);
