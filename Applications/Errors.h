@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file Errors.h
- * @brief The two ways in which the program ends badly, each with a one-line message for the user.
+ * @brief The ways in which the program ends badly, each with a message for the user. That of files is io::FileError.
  */
 #ifndef voxplex_cli_Errors_h
 #define voxplex_cli_Errors_h
 
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace voxplex::cli
 {
@@ -16,8 +18,9 @@ namespace voxplex::cli
 enum ExitStatus
 {
   ExitSuccess = 0,
-  ExitFailure = 1, ///< the input or the processing failed (RunError)
-  ExitUsage = 2    ///< the command line is wrong (UsageError)
+  ExitFailure = 1, ///< the image cannot be meshed, repaired or measured (RunError)
+  ExitUsage = 2,   ///< the command line is wrong (UsageError)
+  ExitFile = 3     ///< a file cannot be read or written (io::FileError)
 };
 
 /** The command line is wrong. */
@@ -27,11 +30,18 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/** The input cannot be meshed, or the output cannot be written. */
+/** The image cannot be meshed, repaired or measured. */
 class RunError : public std::runtime_error
 {
 public:
-  using std::runtime_error::runtime_error;
+  /** @param doing such as "cannot mesh 'knee.nrrd'" */
+  RunError(std::string doing, const std::string& why)
+    : std::runtime_error(why)
+    , Doing(std::move(doing))
+  {
+  }
+
+  const std::string Doing;
 };
 
 } // namespace voxplex::cli

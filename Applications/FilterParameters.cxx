@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterParameters.h"
 
-#include "Errors.h"
+#include "FileError.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkImageToPentatopeMeshFilter.h>
@@ -163,7 +163,7 @@ std::vector<std::string> ReadImage(
   reader->Update();
   if (!reader->GetErrorMessage().empty())
   {
-    throw RunError(InTermsOf(interface, reader->GetErrorMessage()));
+    throw io::FileError(InTermsOf(interface, reader->GetErrorMessage()));
   }
   std::vector<std::string> warnings = WarningsOf(reader);
   for (std::string& warning : warnings)

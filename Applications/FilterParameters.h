@@ -36,7 +36,7 @@ using ProgressFunction = std::function<bool(double fraction, const std::string& 
 /**
  * Has a reader read its file, as the values say.
  * @return warnings in the terms of the interface
- * @throws RunError
+ * @throws io::FileError
  */
 std::vector<std::string> ReadImage(
   vtkSegmentationReader* reader, const ParameterValues& values, UserInterface interface);

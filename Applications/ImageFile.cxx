@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImageFile.h"
 
-#include "Errors.h"
+#include "FileError.h"
 #include "LabelTable.h"
 
 #include <vtkDataArray.h>
@@ -155,7 +155,7 @@ void WriteImage(vtkSegmentationReader* reader, vtkAlgorithm* source, const std::
     vtkDataArray* const voxels = image->GetPointData()->GetScalars();
     if (!voxels || voxels->GetDataType() != type)
     {
-      throw RunError(
+      throw io::FileError(
         "cannot read frame " + std::to_string(frame) + ": " + reader->GetErrorMessage());
     }
     file.write(static_cast<const char*>(voxels->GetVoidPointer(0)),
@@ -164,7 +164,7 @@ void WriteImage(vtkSegmentationReader* reader, vtkAlgorithm* source, const std::
   file.close();
   if (!file)
   {
-    throw RunError(std::string("cannot write the image: ") + std::strerror(errno));
+    throw io::FileError(std::string("cannot write the image: ") + std::strerror(errno));
   }
 }
 

@@ -19,7 +19,7 @@ namespace voxplex::cli
  * Writes all frames of a reader, or of what repairs them (`source`), as NRRD: raw voxels, their place, the times of frames, and the names and colours of labels as 3D
  * Slicer's .seg.nrrd has them.
  *
- * @throws RunError
+ * @throws io::FileError
  */
 void WriteImage(vtkSegmentationReader* reader, vtkAlgorithm* source, const std::string& path);
 

@@ -71,7 +71,7 @@ void OnCrash(int)
   RemoveTemporaries();
   const char* const message = MessageOfCrash;
   [[maybe_unused]] const auto written = write(STDERR_FILENO, message, std::strlen(message));
-  _exit(ExitFailure);
+  _exit(ExitFile); // what crashes is the reading of a mesh
 }
 
 #ifdef _WIN32 // which has no signals from outside, but starts a thread for what the console says

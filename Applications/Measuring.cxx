@@ -247,7 +247,7 @@ ordered_json Measure(const Parameters& parameters, const MeshingInput& input,
   if (!filter->GetErrorMessage().empty())
   {
     throw RunError(
-      "cannot measure the mesh: " + InTermsOf(parameters.Words, filter->GetErrorMessage()));
+      "cannot measure the mesh", InTermsOf(parameters.Words, filter->GetErrorMessage()));
   }
   return ordered_json::parse(filter->ToJSON());
 }

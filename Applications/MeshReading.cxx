@@ -140,11 +140,11 @@ void Named(const std::string& path, TFunction&& read)
   }
   catch (const std::bad_alloc&)
   {
-    throw RunError(begin + "it does not fit into memory");
+    throw io::FileError(begin + "it does not fit into memory");
   }
   catch (const io::FileError& error)
   {
-    throw RunError(begin + error.what());
+    throw io::FileError(begin + error.what());
   }
 }
 

@@ -36,7 +36,7 @@ struct MeshWithInterfaces
  * @param mesh a .vtu file of tetrahedra or pentatopes, as vtkSimplexMeshWriter writes them; empty: interfaces alone
  * @param interfaces of that mesh: a .vtp or .vtu file of triangles, or a .vtu file of tetrahedra. They are made if it is
  *   empty, or if the mesh was changed
- * @throws RunError that names the file and says what is wrong
+ * @throws io::FileError that names the file and says what is wrong
  */
 MeshWithInterfaces ReadMeshFiles(const std::string& mesh, const std::string& interfaces);
 

@@ -84,7 +84,7 @@ vtkSmartPointer<vtkImageToSimplexMeshFilter> Mesh(
     [&progress](double fraction, const std::string&) { return progress(fraction, "Meshing"); });
   if (!filter->GetErrorMessage().empty())
   {
-    throw RunError("cannot mesh '" + parameters.InputName() + "': " + filter->GetErrorMessage());
+    throw RunError("cannot mesh '" + parameters.InputName() + "'", filter->GetErrorMessage());
   }
   if (filter->GetAborted())
   {

@@ -221,8 +221,8 @@ po::options_description OptionsOf(Verb verb, std::optional<ParameterGroup> group
 constexpr const char* Ending =
   "Lengths are in the unit of the image, usually millimetres. Output files appear whole or not at "
   "all.\n"
-  "Exit status: 0 done; 1 the image cannot be meshed or a file not be read or written;\n"
-  "2 wrong command line; 130 interrupted with Ctrl-C.\n";
+  "Exit status: 0 done; 1 the image cannot be meshed; 2 wrong command line; 3 a file cannot be\n"
+  "read or written; 130 interrupted with Ctrl-C.\n";
 
 } // namespace
 

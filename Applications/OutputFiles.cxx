@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutputFiles.h"
 
-#include "Errors.h"
+#include "FileError.h"
 #include "Interruption.h"
 #include "WholeFiles.h"
 
@@ -65,7 +65,7 @@ void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
   }
   if (!writer->Write())
   {
-    throw RunError(writer->GetErrorMessage());
+    throw io::FileError(writer->GetErrorMessage());
   }
 }
 

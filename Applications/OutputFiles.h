@@ -36,7 +36,7 @@ void AnnounceMesh(io::WholeFiles& files, const std::string& path);
  * @param content of vtkSimplexMeshWriter
  * @param slab the only one to write; -1: the whole mesh
  * @param compress .vtu and .vtp files
- * @throws RunError with the writer's reason
+ * @throws io::FileError with the writer's reason
  */
 void WriteMeshFile(vtkDataObject* mesh, vtkDataObject* interfaces, int content,
   const std::string& path, const io::WholeFiles& files, int slab = -1, bool compress = true);

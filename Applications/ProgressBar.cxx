@@ -32,9 +32,10 @@ bool IsTerminal()
 
 } // namespace
 
-ProgressBar::ProgressBar(bool wanted, bool isForSlicer)
-  : IsElements(wanted && isForSlicer)
-  , IsBar(wanted && !isForSlicer && IsTerminal())
+ProgressBar::ProgressBar(bool wanted, UserInterface words)
+  : IsElements(wanted && words == UserInterface::Slicer)
+  , IsMessages(wanted && words == UserInterface::Python)
+  , IsBar(wanted && words == UserInterface::CommandLine && IsTerminal())
   , IsLines(wanted && !this->IsBar)
 {
 }
@@ -74,6 +75,11 @@ void ProgressBar::Show(double fraction, const std::string& step)
   else if (this->IsElements && percent != this->LastPercent)
   {
     this->WriteElement(fraction, step);
+  }
+  else if (this->IsMessages && percent != this->LastPercent)
+  {
+    std::fprintf(stderr, "{\"kind\":\"progress\",\"fraction\":%.2f,\"step\":\"%s\"}\n", fraction,
+      step.c_str());
   }
   else if (this->IsLines && percent != this->LastPercent)
   {

@@ -8,6 +8,8 @@
 #ifndef voxplex_cli_ProgressBar_h
 #define voxplex_cli_ProgressBar_h
 
+#include "MeshingParameters.h"
+
 #include <chrono>
 #include <string>
 
@@ -18,14 +20,15 @@ class ProgressBar
 {
 public:
   /** Shows nothing if not wanted. */
-  ProgressBar(bool wanted, bool isForSlicer);
+  ProgressBar(bool wanted, UserInterface words);
   /** Wipes the bar, or ends the element. */
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   /**
-   * A bar is drawn at most ten times a second; lines, such as "37 % Meshing", are written for new percents only.
+   * A bar is drawn at most ten times a second; lines, such as "37 % Meshing", are written for new percents only. Programs
+   * get elements of the Slicer Execution Model, or lines of JSON.
    *
    * @param fraction 0 to 1 of the whole run
    */
@@ -39,6 +42,7 @@ private:
   void WriteElement(double fraction, const std::string& step) const;
 
   const bool IsElements;
+  const bool IsMessages;
   const bool IsBar;
   const bool IsLines;
   Clock::time_point Start = Clock::now();

@@ -3,6 +3,7 @@
 #include "SpaceTimeFiles.h"
 
 #include "Errors.h"
+#include "FileError.h"
 #include "OutputFiles.h"
 #include "Text.h"
 #include "WholeFiles.h"
@@ -110,7 +111,7 @@ void Slicer::Write(double time, const std::string& path, const io::WholeFiles& f
   this->Filter->UpdateTimeStep(time);
   if (!this->Filter->GetErrorMessage().empty())
   {
-    throw RunError(this->Filter->GetErrorMessage());
+    throw io::FileError(this->Filter->GetErrorMessage());
   }
   vtkNew<vtkUnstructuredGrid> slice;
   slice->ShallowCopy(this->Filter->GetOutputDataObject(0));

@@ -65,7 +65,7 @@ public:
    * Writes the slice at a time: a .vtu file of tetrahedra with the cell array Label, and the time as
    * field data TimeValue.
    *
-   * @throws RunError
+   * @throws io::FileError
    */
   void Write(double time, const std::string& path, const io::WholeFiles& files);
 
@@ -94,7 +94,7 @@ public:
   /** Announces the others. @throws io::OutputError */
   void AnnounceOthers(io::WholeFiles& files, vtkUnstructuredGrid* mesh) const;
 
-  /** @param boundary may be null @throws RunError with the writer's reason */
+  /** @param boundary may be null @throws io::FileError with the writer's reason */
   void Write(vtkUnstructuredGrid* mesh, vtkDataObject* boundary, const io::WholeFiles& files,
     bool compress) const;
 

@@ -162,11 +162,25 @@ void WriteSlabs(const MeshWithInterfaces& mesh, const SlabFiles& slabs, const Pa
   slabs.Write(mesh.Mesh, mesh.Interfaces, files, p.Compress);
 }
 
-void Warn(const std::vector<std::string>& warnings)
+/** On standard error, to people; to programs as a line of JSON. @param doing what failed, may be empty */
+void Say(UserInterface words, bool isWarning, const std::string& doing, const std::string& text)
+{
+  if (words == UserInterface::Python)
+  {
+    const nlohmann::ordered_json message = { { "kind", isWarning ? "warning" : "error" },
+      { "doing", doing }, { "text", text } };
+    std::cerr << message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    return;
+  }
+  std::cerr << "voxplex: " << (isWarning ? "warning: " : "") << (doing.empty() ? "" : doing + ": ")
+            << text << '\n';
+}
+
+void Warn(UserInterface words, const std::vector<std::string>& warnings)
 {
   for (const std::string& warning : warnings)
   {
-    std::cerr << "voxplex: warning: " << warning << '\n';
+    Say(words, true, "", warning);
   }
 }
 
@@ -178,7 +192,7 @@ vtkSmartPointer<vtkSegmentationReader> ReadFile(
   {
     reader->AddFileName(path.c_str());
   }
-  Warn(ReadImage(reader, values, words));
+  Warn(words, ReadImage(reader, values, words));
   return reader;
 }
 
@@ -199,7 +213,7 @@ MeshingInput Read(const Parameters& p)
     input.Sizes = ReadFile({ sizes }, values, p.Words);
     if (input.Sizes->GetNumberOfFrames() > 1)
     {
-      throw RunError("--size-image: '" + sizes +
+      throw io::FileError("--size-image: '" + sizes +
         "' has several time frames; an image of sizes has three dimensions, and holds at all "
         "times");
     }
@@ -214,7 +228,7 @@ auto CompleteOrExit(const Parameters& p, Work&& work)
   decltype(work(ProgressFunction())) result;
   {
     const Interruption::CancellableStep step;
-    ProgressBar bar(p.Progress, p.Words == UserInterface::Slicer);
+    ProgressBar bar(p.Progress, p.Words);
     result = work(
       [&bar](double fraction, const std::string& text)
       {
@@ -250,7 +264,7 @@ MeshWithInterfaces ReadMesh(const Parameters& p, const MeshingInput& input)
   MeshWithInterfaces given = ReadMeshFiles(p.Mesh, p.MeshInterfaces);
   if (!given.Warning.empty())
   {
-    Warn({ "'" + p.Mesh + "': " + given.Warning });
+    Warn(p.Words, { "'" + p.Mesh + "': " + given.Warning });
   }
   if (input.Labels && input.Dimension() != given.Dimension())
   {
@@ -260,7 +274,7 @@ MeshWithInterfaces ReadMesh(const Parameters& p, const MeshingInput& input)
   }
   if (!p.Slabs.empty() && !given.Mesh->GetFieldData()->HasArray("TimePlanes"))
   {
-    throw RunError("--slabs: '" + p.Mesh + "' has no time planes");
+    throw io::FileError("--slabs: '" + p.Mesh + "' has no time planes");
   }
   return given;
 }
@@ -297,8 +311,8 @@ void PrepareForFrames(const Parameters& p, const LabelTable& names, const Meshin
     {
       if (!labels.empty() && labels.count(label.first) == 0)
       {
-        throw RunError("cannot repair '" + p.InputName() + "': --" + name +
-          ": no frame of the image has label " + std::to_string(label.first));
+        throw RunError("cannot repair '" + p.InputName() + "'",
+          "--" + name + ": no frame of the image has label " + std::to_string(label.first));
       }
     }
   }
@@ -331,7 +345,7 @@ void RepairImage(const Parameters& p, MeshingInput& input)
     });
   if (!input.Repair->GetErrorMessage().empty())
   {
-    throw RunError("cannot repair '" + p.InputName() + "': " + input.Repair->GetErrorMessage());
+    throw RunError("cannot repair '" + p.InputName() + "'", input.Repair->GetErrorMessage());
   }
 }
 
@@ -438,7 +452,7 @@ void SaveImage(const Parameters& p)
     WriteReport({ { "repair", report.Rows } }, p.Statistics, files);
   }
   CommitFiles(files);
-  Warn(report.Warnings);
+  Warn(p.Words, report.Warnings);
   std::cout << report.Text << std::flush;
 }
 
@@ -523,7 +537,7 @@ void Run(const Parameters& p)
   Announce(files, p);
   if (p.WritesNothing() && !p.Quality)
   {
-    Warn({ "no mesh will be written: name one last, or with --output" });
+    Warn(p.Words, { "no mesh will be written: name one last, or with --output" });
   }
 
   InputOutputTimes times;
@@ -562,10 +576,10 @@ void Run(const Parameters& p)
     WriteResults(report, p.Results, files);
   }
   CommitFiles(files);
-  Warn(repair.Warnings);
+  Warn(p.Words, repair.Warnings);
   if (filter)
   {
-    Warn(WarningsOf(filter.Get()));
+    Warn(p.Words, WarningsOf(filter.Get()));
   }
   std::cout << (filter ? Summarize(report) : SummarizeMesh(mesh.Mesh, dimension, report, times))
             << (p.Quality ? SummarizeMeasurement(report) : "") << repair.Text << std::flush;
@@ -604,17 +618,28 @@ int main(int argc, char* argv[])
   }
   catch (const UsageError& error)
   {
-    std::cerr << "voxplex: " << NameOptions(words, error.what())
-              << (words == UserInterface::CommandLine ? "\nvoxplex: see voxplex --help\n" : "\n");
+    Say(words, false, "", NameOptions(words, error.what()));
+    std::cerr << (words == UserInterface::CommandLine ? "voxplex: see voxplex --help\n" : "");
     return ExitUsage;
+  }
+  catch (const io::FileError& error)
+  {
+    Say(words, false, "", NameOptions(words, error.what()));
+    return ExitFile;
+  }
+  catch (const RunError& error)
+  {
+    Say(words, false, error.Doing, NameOptions(words, error.what()));
   }
   catch (const std::bad_alloc&)
   {
-    std::cerr << "voxplex: out of memory; try larger elements (delta, size)\n"; // takes none itself
+    const bool isJson = words == UserInterface::Python; // takes no memory itself
+    std::cerr << (isJson ? R"({"kind":"error","doing":"","text":")" : "voxplex: ")
+              << "out of memory; try larger elements (delta, size)" << (isJson ? "\"}\n" : "\n");
   }
   catch (const std::exception& error)
   {
-    std::cerr << "voxplex: " << NameOptions(words, error.what()) << '\n';
+    Say(words, false, "", NameOptions(words, error.what()));
   }
   return ExitFailure;
 }

@@ -9,24 +9,21 @@ are raised, warnings issued; Ctrl-C and whatever a callback raises end the progr
 from __future__ import annotations
 
 import errno
+import json
 import os
-import re
 import signal
 import subprocess
 import sys
 import warnings
-from typing import Any, Callable, Iterable, List, Optional, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple, Union
 
 from . import installation
 from .errors import ArgumentError, FileError, MeshingCancelled, MeshingError, MeshingWarning
 
+_NAME = "voxplex: "  # before what is no message
+
 Progress = Callable[[float], object]
 """Called with the fraction done, 0 to 1. False, or another value that is false except None, cancels."""
-
-_PROGRESS = re.compile(r"(\d+) %")
-_WARNING = "voxplex: warning: "
-_NAME = "voxplex: "
-_DOING = re.compile(r"cannot (?:(?:mesh|measure|repair) '.*?'|(?:mesh|measure|read|repair) the (?:image|mesh)): ", re.DOTALL)
 
 
 def path() -> str:
@@ -67,30 +64,29 @@ def run(arguments: List[str], progress: Optional[Progress] = None,
     except OSError as error:
         raise RuntimeError(no_start(error)) from None
     assert process.stderr is not None
-    said: List[str] = []
+    messages: List[Dict[str, Any]] = []
     try:
         with process.stderr as stream:
             for line in stream:
-                text = os.fsdecode(line).rstrip("\n")
-                found = _PROGRESS.match(text) if progress else None
-                if found and progress:
-                    _report(progress, int(found[1]) / 100)
-                else:
-                    said.append(text)
+                message = _message(os.fsdecode(line).rstrip("\n"))
+                if message["kind"] != "progress":
+                    messages.append(message)
+                elif progress:
+                    _report(progress, message["fraction"])
         process.wait()
         if progress and process.returncode == 0:
             _report(progress, 1.0)
     except BaseException:
         _end(process)
         raise
-    texts = _messages(said)
-    for theirs, ours in words:
-        texts = [text.replace(theirs, ours) for text in texts]
-    for warning in texts:
-        if warning.startswith(_WARNING):
-            _warn(warning[len(_WARNING):])
+    for message in messages:
+        for theirs, ours in words:
+            message.update({key: message[key].replace(theirs, ours) for key in ("doing", "text")})
+        if message["kind"] == "warning":
+            _warn(message["text"])
     if process.returncode != 0:
-        raise _failure(process.returncode, [text for text in texts if not text.startswith(_WARNING)])
+        errors = [message for message in messages if message["kind"] != "warning"]
+        raise _failure(process.returncode, errors, [ours for _, ours in words])
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
@@ -109,20 +105,18 @@ def _report(progress: Progress, fraction: float) -> None:
         raise MeshingCancelled("it was cancelled")
 
 
-def _messages(lines: List[str]) -> List[str]:
-    """A message begins with the program's name, and may have several lines."""
-    messages: List[str] = []
-    for line in lines:
-        if line.startswith(_NAME) or not messages:
-            messages.append(line)
-        else:
-            messages[-1] += "\n" + line
-    return messages
+def _message(line: str) -> Dict[str, Any]:
+    """Of the program; other lines are of the loader of libraries, or say how the program ended."""
+    try:
+        message = json.loads(line)
+    except ValueError:
+        message = None
+    return message if isinstance(message, dict) else {"kind": "other", "doing": "", "text": line}
 
 
-def _failure(status: int, messages: List[str]) -> Exception:
-    texts = [text[len(_NAME):] if text.startswith(_NAME) else text for text in messages]
-    text = "\n".join(texts)
+def _failure(status: int, messages: List[Dict[str, Any]], in_memory: List[str]) -> Exception:
+    text = "\n".join(message["text"] for message in messages)
+    text = text[len(_NAME):] if text.startswith(_NAME) else text
     if status == 2:
         return ArgumentError(text)
     if status > 128:
@@ -132,14 +126,13 @@ def _failure(status: int, messages: List[str]) -> Exception:
         if -status == signal.SIGKILL:
             end += ", most likely because memory ran out: take larger elements, or a smaller image"
         return MeshingError(end + (": " + text if text else ""))
-    if status in (1, 127) and texts and texts == messages:  # it says nothing without its name
+    if status in (1, 127) and messages and all(message["kind"] == "other" for message in messages):
         return RuntimeError(no_start(text))
-    if status != 1:
-        return MeshingError(f"the program ended with status {status}: {text}")
-    found = _DOING.match(text)
-    if found or "out of memory" in text:
-        return MeshingError(text[found.end():] if found else text)
-    return FileError(text)
+    if status == 3:
+        reading = [f"cannot read {name}: " for name in in_memory]
+        found = next((start for start in reading if text.startswith(start)), None)
+        return FileError(text) if found is None else MeshingError(text[len(found):])
+    return MeshingError(text if status == 1 else f"the program ended with status {status}: {text}")
 
 
 def _warn(text: str) -> None:

@@ -41,7 +41,7 @@ class CommandLine(ProgramTestCase):
             with self.subTest(arguments):
                 self.refuse(pattern, *arguments)
         # Two dashes at the beginning of a value are possible.
-        self.assert_refused(1, "'--pin'", "--pin", "--input=--pin", "--force")
+        self.assert_refused(3, "'--pin'", "--pin", "--input=--pin", "--force")
 
     def test_delta(self):
         for value in ("0", "-1", "-0.5", "0.0"):
@@ -158,7 +158,7 @@ class Outputs(ProgramTestCase):
         self.input = images.write_nrrd(self.folder / "ball.nrrd", images.ball())
 
     def refuse(self, pattern, *arguments, **options):
-        return self.assert_refused(1, pattern, "--input", self.input, "--delta", 3, *arguments, **options)
+        return self.assert_refused(3, pattern, "--input", self.input, "--delta", 3, *arguments, **options)
 
     def test_missing_folder(self):
         self.refuse("cannot write 'nowhere/m.vtu': there is no folder 'nowhere'", "--output", "nowhere/m.vtu")
@@ -193,13 +193,13 @@ class Outputs(ProgramTestCase):
         for name, flag in (("m.vtu", "--output"), ("m.xdmf", "--output"), ("i.ply", "--plc")):
             with self.subTest(name):
                 (self.folder / name).write_text("old")
-                self.assert_refused(1, "cannot write '%s': " % name, "--input", self.input, "--delta", 1.2, flag, name,
+                self.assert_refused(3, "cannot write '%s': " % name, "--input", self.input, "--delta", 1.2, flag, name,
                                     preexec_fn=limit)
 
 
 class Files(ProgramTestCase):
     def refuse(self, pattern, path, *arguments):
-        done = self.assert_refused(1, pattern, "--input", path, "--output", "mesh.vtu", *arguments)
+        done = self.assert_refused(3, pattern, "--input", path, "--output", "mesh.vtu", *arguments)
         self.assertIn(os.path.basename(str(path)), done.stderr)
         return done
 
@@ -217,7 +217,7 @@ class Files(ProgramTestCase):
                             ("noise.tif", b"II*\0"), ("noise.dcm", b"\0" * 128 + b"DICM")):
             with self.subTest(name):
                 (self.folder / name).write_bytes(magic + rng.bytes(1000))
-                self.assert_refused(1, "cannot read '%s': .*(not an image|damaged|picture|HDF5)" % name, "--input", name, "--output", "mesh.vtu")
+                self.assert_refused(3, "cannot read '%s': .*(not an image|damaged|picture|HDF5)" % name, "--input", name, "--output", "mesh.vtu")
 
     def test_series_of_a_file(self):
         self.refuse("--series needs a folder", images.write_nrrd(self.folder / "i.nrrd", images.ball()),
@@ -225,7 +225,7 @@ class Files(ProgramTestCase):
 
     def test_bad_size_image(self):
         path = images.write_nrrd(self.folder / "i.nrrd", images.ball())
-        self.assert_refused(1, "cannot read 'none.nrrd'", "--input", path, "--size-image", "none.nrrd")
+        self.assert_refused(3, "cannot read 'none.nrrd'", "--input", path, "--size-image", "none.nrrd")
 
 
 class Labels(ProgramTestCase):

@@ -215,12 +215,12 @@ class Places(ProgramTestCase):
                               ("folder.vtu", "it is a folder"), ("input.vtu", "it is the input"),
                               ("null.vtu", "it exists and is not a regular file")):
             with self.subTest(name):
-                self.assert_refused(1, "cannot write '%s': %s" % (name, pattern), "--input", self.input, "--output", name)
+                self.assert_refused(3, "cannot write '%s': %s" % (name, pattern), "--input", self.input, "--output", name)
 
     def test_one_file_by_two_links(self):
         """Before it is there."""
         self.link("m.vtk", "elsewhere/one.vtk")
-        self.assert_refused(1, "two outputs have this name", "--input", self.input, "--output", "m.vtk",
+        self.assert_refused(3, "two outputs have this name", "--input", self.input, "--output", "m.vtk",
                             "--plc", "elsewhere/one.vtk")
 
     def test_permissions(self):
@@ -252,7 +252,7 @@ class Places(ProgramTestCase):
         (self.folder / "m.vtu").write_text("precious")
         (self.folder / "m.vtu").chmod(0o444)
         other = {"user": 12345, "group": 12345} if os.geteuid() == 0 else {}
-        self.assert_refused(1, r"cannot write 'm.vtu': the file that is there is write-protected \(Permission denied\)",
+        self.assert_refused(3, r"cannot write 'm.vtu': the file that is there is write-protected \(Permission denied\)",
                             "--input", self.input, "--output", "m.vtu", **other)
         if os.geteuid() == 0:
             self.write("--output", "m.vtu")

@@ -93,7 +93,7 @@ class Tetrahedra(MeshTestCase):
         self.same_files("sa.stl", "b.stl")
         for status, words, arguments in ((2, "which mesh\\? Name it first, or with --mesh", ("--plc", "x.stl", "--output", "x.vtu")),
                                          (2, "no mesh would be written", ()), (2, "--delta is an option of 'voxplex mesh'", ("--plc", "x.stl", "--delta", 2)),
-                                         (2, "--plc: the format '.inp' is not known", ("--plc", "x.inp")), (1, "i.vtp", ("--plc", "i.vtp"))):
+                                         (2, "--plc: the format '.inp' is not known", ("--plc", "x.inp")), (3, "i.vtp", ("--plc", "i.vtp"))):
             self.assert_refused(status, words, "convert", "--interfaces", "i.vtp", *arguments)
 
     def test_measures_against_the_image(self):
@@ -151,7 +151,7 @@ class Tetrahedra(MeshTestCase):
                 ("--slices: only for meshes of pentatopes", ("convert", "--mesh", "m.vtu", "--slices", "s_", "--slice-count", 2)),
                 ("--output: the format '.foo' is not known", ("convert", "--mesh", "m.vtu", "--output", "m.foo"))):
             self.assert_refused(2, pattern, *arguments)
-        self.assert_refused(1, "cannot write 'm.vtu': it is the input", "convert", "--mesh", "m.vtu", "--output", "m.vtu")
+        self.assert_refused(3, "cannot write 'm.vtu': it is the input", "convert", "--mesh", "m.vtu", "--output", "m.vtu")
 
 
 class Pentatopes(MeshTestCase):
@@ -199,7 +199,7 @@ class Pentatopes(MeshTestCase):
         for status, pattern, arguments in (
                 (2, "'m.vtu' has pentatopes, but .*two.nrrd' has no time frames", ("measure", "m.vtu", two)),
                 (2, "moving.nrrd' has time frames, but 'tets.vtu' has no pent", ("measure", "--mesh", "tets.vtu", "--input", self.input)),
-                (1, "--slabs: 'tets.vtu' has no time planes", ("convert", "--mesh", "tets.vtu", "--slabs", "x_")),
+                (3, "--slabs: 'tets.vtu' has no time planes", ("convert", "--mesh", "tets.vtu", "--slabs", "x_")),
                 (2, "--slices: a mesh has no frames; give .*--slice-count, .*--frame-times", (*self.given, "--slices", "x_")),
                 (2, "--output: '.msh' does not hold", (*self.given, "--output", "x.msh")),
                 (2, "--frame-times: give the time of each frame", ("--input", self.input, "--frame-times", "1"))):
@@ -315,7 +315,7 @@ class OtherMeshes(MeshTestCase):
                     change(grid, cells)
                     self.save(self.with_cells(grid, cells, size), "x.vtu")
                     for arguments in (("convert", "x.vtu", "x.mesh"), ("measure", "x.vtu")):
-                        self.assert_refused(1, "cannot read 'x.vtu': Cells of the mesh .*" + pattern, *arguments)
+                        self.assert_refused(3, "cannot read 'x.vtu': Cells of the mesh .*" + pattern, *arguments)
             grid = self.load(mesh)  # nothing of it is hidden
             self.hide(grid.GetCellData(), grid.GetNumberOfCells(), 3, 0)
             self.save(grid, "x.vtu")
@@ -379,7 +379,7 @@ class SavedImage(MeshTestCase):
                                    ("'x.nrrd' is one name too many", ("x.nrrd", "y.nrrd"))):
             self.assert_refused(2, pattern, "image", self.input, *arguments)
         self.assert_refused(2, "which image\\? Name it first, or with --input", "image", "--output", "x.nrrd")
-        self.assert_refused(1, "it is the input", "image", self.input, self.input)
+        self.assert_refused(3, "it is the input", "image", self.input, self.input)
 
     def test_files_that_are_read(self):
         """Those of a folder, and those that a header names, stay as they are, whatever is to be written there."""
@@ -409,7 +409,7 @@ class SavedImage(MeshTestCase):
             before = (self.folder / written).read_bytes()
             with self.subTest(read=read, option=option):
                 verb = ["image"] if str(written).endswith(".nrrd") or written in names else ["mesh"]
-                self.assert_refused(1, "cannot write '%s': it is the input" % written, *verb, *read, option, written)
+                self.assert_refused(3, "cannot write '%s': it is the input" % written, *verb, *read, option, written)
                 self.assertEqual((self.folder / written).read_bytes(), before)
         self.run_program("image", "masks", "masks/both.nrrd")  # nothing was there
 
@@ -421,7 +421,7 @@ class Files(MeshTestCase):
         self.whole = (self.folder / "m.vtu").read_bytes()
 
     def refuse(self, pattern, name="x.vtu"):
-        self.assert_refused(1, "cannot read '%s': %s" % (name, pattern), "convert", "--mesh", name, "--output", "y.msh")
+        self.assert_refused(3, "cannot read '%s': %s" % (name, pattern), "convert", "--mesh", name, "--output", "y.msh")
 
     def refuse_bytes(self, pattern, data):
         (self.folder / "x.vtu").write_bytes(data)
@@ -468,7 +468,7 @@ class Files(MeshTestCase):
             with self.subTest(pattern):
                 if mesh == "other.vtu":
                     self.mesh("--input", self.input, "--delta", 3, "--output", "other.vtu")
-                self.assert_refused(1, "cannot read '%s': %s" % (interfaces, pattern),
+                self.assert_refused(3, "cannot read '%s': %s" % (interfaces, pattern),
                                     "convert", "--mesh", mesh, "--interfaces", interfaces, "--output", "y.vtu")
 
     def change(self, name, data):

@@ -34,7 +34,7 @@ def limit_memory():
 
 class HostileTestCase(ProgramTestCase):
     def refuse(self, pattern, path, *arguments):
-        done = self.assert_refused(1, pattern, "--input", path, "--output", "mesh.vtu", *arguments, timeout=60,
+        done = self.assert_refused(3, pattern, "--input", path, "--output", "mesh.vtu", *arguments, timeout=60,
                                    preexec_fn=limit_memory)
         self.assertIn(os.path.basename(str(path)), done.stderr)
         self.assertLess(len(done.stderr), 500)

@@ -150,14 +150,14 @@ class Masks(ProgramTestCase):
     def test_grids(self):
         coarse = images.write_nrrd(self.folder / "coarse.nrrd", images.ball(10, 4.0),
                                    images.Geometry((0.25,) * 3, (2.0,) * 3))
-        self.assert_refused(1, "one grid, but '.*Body.nrrd' has the spacing 1 1 1, and '.*coarse.nrrd' 2 2 2; give "
+        self.assert_refused(3, "one grid, but '.*Body.nrrd' has the spacing 1 1 1, and '.*coarse.nrrd' 2 2 2; give "
                             "--resample-masks", "--input", self.large, coarse, "--delta", "2.5")
         self.mesh("--input", coarse, self.small, "--resample-masks", "--delta", "2.5", "--output", "m.vtu",
                   warning="masks overlap")
         self.assertEqual(names_of(self.folder / "m.vtu"), {1: "coarse", 2: "Lung.left"})
 
     def test_output_is_a_mask(self):
-        self.assert_refused(1, "Lung.left.seg.nrrd", "image", "--input", self.large, self.small, "--output", self.small)
+        self.assert_refused(3, "Lung.left.seg.nrrd", "image", "--input", self.large, self.small, "--output", self.small)
 
 
 class Refusal(NamesTestCase):
@@ -216,10 +216,10 @@ class Refusal(NamesTestCase):
     def test_table(self):
         (self.folder / "names.txt").write_text("3 Bone\nx\n")
         self.refuse("cannot read the label table 'names.txt': line 2: 'x' is not a label", "--label-table", "names.txt",
-                    status=1)
-        self.refuse("cannot read the label table 'none': there is no such file", "--label-table", "none", status=1)
+                    status=3)
+        self.refuse("cannot read the label table 'none': there is no such file", "--label-table", "none", status=3)
         (self.folder / "m.vtu").write_text("3 Bone\n")
-        self.refuse("cannot write 'm.vtu': it is the input", "--label-table", "m.vtu", status=1)
+        self.refuse("cannot write 'm.vtu': it is the input", "--label-table", "m.vtu", status=3)
         self.refuse("--label-table: the name is empty", "--label-table", "")
 
 

@@ -186,10 +186,10 @@ class DataFiles(ProgramTestCase):
         header = images.write_nrrd(self.folder / "headers" / "ball.nhdr", ball,
                                    header_lines={"encoding": "raw", "data file": "../ball.raw"})
         words = r"the data file '\.\./ball\.raw', which is not in the folder of the header or below; .* --data-files-anywhere if"
-        self.assert_refused(1, words, "--input", header, "--output", "mesh.vtu")
+        self.assert_refused(3, words, "--input", header, "--output", "mesh.vtu")
         self.mesh("--input", header, "--data-files-anywhere", "--delta", 2, "--output", "mesh.vtu")
         arguments = ("--input", images.write_nrrd(self.folder / "ball.nrrd", ball), "--delta", 2, "--size-image", header)
-        self.assert_refused(1, words, *arguments)
+        self.assert_refused(3, words, *arguments)
         self.statistics(*arguments, "--data-files-anywhere")
 
 

@@ -105,7 +105,7 @@ class Slabs(SlabTestCase):
     def test_folder_that_takes_no_files(self):
         """Known before the image is meshed: a mesh of this size would be refused, too."""
         for prefix, reason in (("none/s_", "there is no folder 'none'"), ("/proc/s_", "does not take new files")):
-            self.assert_refused(1, f"cannot write '{prefix}0.vtu': .*{reason}", *self.arguments[:2], "--delta", 0.01,
+            self.assert_refused(3, f"cannot write '{prefix}0.vtu': .*{reason}", *self.arguments[:2], "--delta", 0.01,
                                 "--time-planes", "7.5", "--slabs", prefix)
 
     def test_reproducible(self):

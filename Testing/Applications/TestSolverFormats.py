@@ -195,7 +195,7 @@ class XDMF(LabelledMeshTestCase):
         self.assertTrue((self.folder / "a folder" / "R&D <1>.v2.h5").exists())
 
     def refuse(self, pattern, *arguments, **options):
-        self.assert_refused(1, pattern, "--input", self.input, "--delta", self.delta, *arguments, **options)
+        self.assert_refused(3, pattern, "--input", self.input, "--delta", self.delta, *arguments, **options)
 
     def test_two_files_or_none(self):
         self.write("whole.xdmf")

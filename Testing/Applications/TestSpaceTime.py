@@ -125,18 +125,18 @@ class BadImages(ProgramTestCase):
 
     def test_frame_times(self):
         path = images.write_space_time_nrrd(self.folder / "i.nrrd", self.ARRAY)
-        self.refuse("--frame-times gave 2 times, but '.*i.nrrd' has 3 frames; give one", path, "--frame-times", "0,1")
+        self.refuse("--frame-times gave 2 times, but '.*i.nrrd' has 3 frames; give one", path, "--frame-times", "0,1", status=3)
         for text, pattern in (("0,2,1", "--frame-times: times must increase, but 1 follows 2"),
                               ("0,x,1", "--frame-times: 'x' is not a number"), ("5", "give the time of each frame"),
                               ("0,inf,1", "must be a finite number")):
             self.refuse(pattern, path, "--frame-times", text, status=2)
         ball = images.write_nrrd(self.folder / "ball.nrrd", images.ball(12, 4.0))
-        self.refuse("--frame-times gave 2 times, but '.*ball.nrrd' has 1 frame; give one", ball, "--frame-times", "0,1")
+        self.refuse("--frame-times gave 2 times, but '.*ball.nrrd' has 1 frame; give one", ball, "--frame-times", "0,1", status=3)
 
     def test_size_image_of_four_dimensions(self):
         path = images.write_space_time_nrrd(self.folder / "i.nrrd", self.ARRAY)
         images.write_space_time_nrrd(self.folder / "sizes.nrrd", self.ARRAY.astype(np.float32))
-        self.refuse("--size-image: .*sizes.nrrd.* three dimensions", path, "--size-image", "sizes.nrrd")
+        self.refuse("--size-image: .*sizes.nrrd.* three dimensions", path, "--size-image", "sizes.nrrd", status=3)
 
     def test_one_frame(self):
         """Images with a fourth axis of length 1 are common, and are 3D images."""

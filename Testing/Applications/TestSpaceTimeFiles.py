@@ -133,7 +133,7 @@ class Formats(SpaceTimeTestCase):
         self.run_with("--output", "large.vtu")
         self.assertEqual(set(meshfiles.read_pentatopes(self.folder / "large.vtu").labels), {3, 2**40})
         for name in ("mesh.mfem", "mesh.mesh"):
-            self.refuse(1, "cannot write '%s': label 1099511627776 .*32 bits.*vtu" % name, "--output", name)
+            self.refuse(3, "cannot write '%s': label 1099511627776 .*32 bits.*vtu" % name, "--output", name)
 
 
 class Boundaries(SpaceTimeTestCase):
@@ -296,7 +296,7 @@ class Slices(SpaceTimeTestCase):
             resource.setrlimit(resource.RLIMIT_FSIZE, (3000, resource.RLIM_INFINITY))
 
         (self.folder / "heart_1.vtu").write_text("old")
-        self.refuse(1, "cannot write 'heart_0.vtu': ", "--slices", "heart_", preexec_fn=limit)
+        self.refuse(3, "cannot write 'heart_0.vtu': ", "--slices", "heart_", preexec_fn=limit)
 
     def test_many(self):
         """More files than a list of a fixed size would hold."""
@@ -304,16 +304,16 @@ class Slices(SpaceTimeTestCase):
         self.assertEqual(len(self.slices("s.pvd")), 100)
 
     def test_outputs_that_clash(self):
-        self.refuse(1, "cannot write 'heart_2.vtu': two outputs have this name", "--slices", "heart_",
+        self.refuse(3, "cannot write 'heart_2.vtu': two outputs have this name", "--slices", "heart_",
                     "--output", "heart_2.vtu")
-        self.refuse(1, "two outputs have this name", "--slices", "./heart_", "--plc", "heart_2.vtu")
+        self.refuse(3, "two outputs have this name", "--slices", "./heart_", "--plc", "heart_2.vtu")
 
     def test_folder_that_is_missing(self):
-        self.refuse(1, "cannot write 'none/heart.pvd': there is no folder 'none'", "--slices", "none/heart_")
+        self.refuse(3, "cannot write 'none/heart.pvd': there is no folder 'none'", "--slices", "none/heart_")
 
     def test_input_is_not_overwritten(self):
         os.link(self.input, self.folder / "heart_3.vtu")
-        self.refuse(1, "cannot write 'heart_3.vtu': it is the input", "--slices", "heart_")
+        self.refuse(3, "cannot write 'heart_3.vtu': it is the input", "--slices", "heart_")
 
     def test_prefixes(self):
         for prefix, pattern in (("", "--slices: the name is empty"), ("out/", "--slices: 'out/' names no file"),

@@ -217,7 +217,7 @@ class CommandLine(unittest.TestCase):
         wrong = run("--input", "a file with spaces.nrrd", "--delta", "fine")
         self.assertEqual(wrong.returncode, 2)
         missing = run("--input", "a file with spaces.nrrd")
-        self.assertEqual(missing.returncode, 1)
+        self.assertEqual(missing.returncode, 3)
         self.assertIn("cannot read 'a file with spaces.nrrd': there is no such file", missing.stderr)
 
     @unittest.skipUnless(os.access(PROGRAM, os.X_OK), "the program was not built")
