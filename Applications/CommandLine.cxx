@@ -316,9 +316,7 @@ UserInterface WordsOf(int argc, const char* const* argv)
     {
       const std::string word =
         argument.substr(option.size(), argument.find('=', option.size()) - option.size());
-      return word == "python" ? UserInterface::Python
-        : word == "slicer"    ? UserInterface::Slicer
-                              : UserInterface::CommandLine;
+      return word == "python" ? UserInterface::Python : UserInterface::CommandLine;
     }
   }
   return UserInterface::CommandLine;

@@ -270,9 +270,8 @@ int ParseWhole(const std::string& option, const std::string& text, int low, int 
 
 UserInterface ParseWords(const std::string& option, const std::string& text)
 {
-  // In the order of the enumeration.
-  return static_cast<UserInterface>(static_cast<int>(UserInterface::CommandLine) +
-    ParseWord(option, text, { "shell", "slicer", "python" }));
+  return ParseWord(option, text, { "shell", "python" }) == 0 ? UserInterface::CommandLine
+                                                             : UserInterface::Python;
 }
 
 std::string NameOptions(UserInterface interface, const std::string& message)

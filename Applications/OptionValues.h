@@ -58,7 +58,7 @@ int ParseWord(
 ParameterValue ParseParameter(
   const std::string& option, const std::string& text, const MeshingParameter& parameter);
 
-/** Whose words errors and warnings have: "shell", "slicer" or "python". */
+/** Whose words errors and warnings have: "shell" or "python". */
 UserInterface ParseWords(const std::string& option, const std::string& text);
 
 /** A message that names options, "--facet-angle", with the names that an interface has for them. */

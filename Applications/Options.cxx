@@ -119,9 +119,9 @@ const std::vector<OwnOption>& OwnOptions()
       "show a progress bar; if standard error is no terminal, print a line for each new "
       "percent, such as '37 % Meshing'",
       ParameterGroup::Running },
-    { "messages", "shell|slicer|python", All,
-      "for programs that start this one: the names that errors and warnings have for options "
-      "(default shell); with slicer, --progress is that of 3D Slicer's modules",
+    { "messages", "shell|python", All,
+      "for programs that start this one: python makes errors, warnings and progress lines of JSON, "
+      "with Python's names for options (default shell)",
       ParameterGroup::Running },
     { "returnparameterfile", "FILE", { Verb::Mesh },
       "for 3D Slicer: a file for results, in lines such as 'numberOfTetrahedra = 4711'; with it "

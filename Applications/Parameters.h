@@ -46,7 +46,7 @@ struct Parameters
   std::string Interfaces;
   std::string Statistics;
   std::string Results; ///< for an application of the Slicer Execution Model
-  std::string Slices; ///< the beginning of the names of slices
+  std::string Slices;  ///< the beginning of the names of slices
   std::optional<int> SliceCount;
   std::vector<double> TimePlanes; ///< in the image's unit of time
   bool TimePlanesAtFrames = false;
