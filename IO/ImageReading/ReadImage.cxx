@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadImage.h"
 
+#include "ReaderProcess/SharedMemory.h"
 #include "Readers.h"
-#include "VoxelMemory.h"
 
 #include <algorithm>
 #include <array>
@@ -153,7 +153,11 @@ ImageAnswer ReadImage(const ImageRequest& request)
 {
   Reading reading;
   reading.Request = request;
-  reading.Allocate = NewVoxels;
+  reading.Allocate = [](std::size_t bytes)
+  {
+    RefuseMoreThanMemory(bytes);
+    return AllocateVoxels(bytes);
+  };
   ImageAnswer answer;
   try
   {

@@ -5,7 +5,6 @@
 #include "FilesOfFolder.h"
 #include "Placement.h"
 #include "Text.h"
-#include "VoxelMemory.h"
 
 #include <algorithm>
 #include <cstring>
@@ -111,7 +110,7 @@ ScalarImage ReadSlices(const std::vector<std::string>& files, Reading& reading)
   for (std::size_t k = 0; k < files.size(); ++k)
   {
     Reading of = reading; // whose memory is for one slice
-    of.Allocate = NewVoxels;
+    of.Allocate = AllocateVoxels;
     of.Warnings.clear();
     const ScalarImage slice = ReadSlice(files[k], of);
     const std::size_t bytes = slice.NumberOfVoxels() * SizeOf(slice.Type);

@@ -28,7 +28,6 @@ struct Reading : ImageNotes
 {
   ImageRequest Request;
 
-  /** Where voxels go; nothing in them is set. */
   VoxelAllocator Allocate;
 
   /** Whether the file says where the image lies. A format that never does has no guess to tell. */

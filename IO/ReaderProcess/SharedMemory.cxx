@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SharedMemory.h"
 
-#include "ImageReading/VoxelMemory.h"
-
 #include <cstdio>
 #include <new>
 
@@ -50,6 +48,14 @@ std::shared_ptr<void> Map(int descriptor, std::uint64_t offset, std::size_t byte
 
 } // namespace
 
+void RefuseMoreThanMemory(std::uint64_t bytes)
+{
+  if (bytes / PageSize() > static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)))
+  {
+    throw std::bad_alloc();
+  }
+}
+
 int MakeSharedMemory()
 {
 #if defined(MFD_ALLOW_SEALING)
@@ -67,10 +73,7 @@ int MakeSharedMemory()
 
 std::shared_ptr<void> SharedMemoryWriter::Allocate(std::size_t bytes)
 {
-  if (bytes > MemoryOfMachine())
-  {
-    throw std::bad_alloc();
-  }
+  RefuseMoreThanMemory(bytes);
   const std::uint64_t offset = this->Size;
   this->Size += (bytes + PageSize() - 1) / PageSize() * PageSize();
   if (ftruncate(this->Descriptor, static_cast<off_t>(this->Size)) != 0)

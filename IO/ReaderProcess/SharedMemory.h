@@ -15,6 +15,9 @@
 namespace voxplex::io
 {
 
+/** @throws std::bad_alloc if the machine has less */
+void RefuseMoreThanMemory(std::uint64_t bytes);
+
 /** A descriptor of no bytes yet, which is closed when a program is executed; -1 if there is none to be had. */
 int MakeSharedMemory();
 
