@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 #include <utility>
 
 namespace voxplex::io
@@ -113,17 +114,25 @@ void RequireSlabs(vtkUnstructuredGrid* mesh)
     pairs && !ArePoints(pairs, mesh->GetNumberOfPoints()), "its PeriodicPairs are not its points");
 }
 
-/** The input itself is not touched. */
+/** VTK's writers need both, also of what a filter that failed has left. The input itself is not touched. */
 template <typename TGrid>
-void EnsurePoints(vtkSmartPointer<TGrid>& grid)
+void EnsurePointsAndCells(vtkSmartPointer<TGrid>& grid)
 {
-  if (grid && !grid->GetPoints())
+  if (!grid || (grid->GetPoints() && grid->GetNumberOfCells() > 0))
   {
-    const auto copy = vtkSmartPointer<TGrid>::New();
-    copy->ShallowCopy(grid);
-    copy->SetPoints(vtkNew<vtkPoints>());
-    grid = copy;
+    return;
   }
+  const auto copy = vtkSmartPointer<TGrid>::New();
+  copy->ShallowCopy(grid);
+  if (!copy->GetPoints())
+  {
+    copy->SetPoints(vtkNew<vtkPoints>());
+  }
+  if constexpr (std::is_same_v<TGrid, vtkUnstructuredGrid>)
+  {
+    copy->SetCells(VTK_TETRA, vtkNew<vtkCellArray>());
+  }
+  grid = copy;
 }
 
 } // namespace
@@ -161,9 +170,9 @@ MeshInput::MeshInput(vtkDataObject* mesh, vtkDataObject* interfaces, int slab, b
     this->Tetrahedra = vtkSmartPointer<vtkUnstructuredGrid>::New();
     AddInterfaceArrays(this->Tetrahedra);
   }
-  EnsurePoints(this->Mesh);
-  EnsurePoints(this->Triangles);
-  EnsurePoints(this->Tetrahedra);
+  EnsurePointsAndCells(this->Mesh);
+  EnsurePointsAndCells(this->Triangles);
+  EnsurePointsAndCells(this->Tetrahedra);
 }
 
 void MeshInput::Check(Content content, const std::string& name) const
