@@ -8,6 +8,7 @@
 #define voxplex_Private_Execution_h
 
 #include "Private/SmpThreads.h"
+#include "StopRequest.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
@@ -35,16 +36,6 @@
 
 namespace voxplex
 {
-
-inline bool IsStopRequested(vtkAlgorithm* filter)
-{
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
-  // CheckAbort() knows of filters further down the pipeline, but not of SetAbortExecute().
-  return filter->GetAbortExecute() != 0 || filter->CheckAbort();
-#else
-  return filter->GetAbortExecute() != 0;
-#endif
-}
 
 /** An array that an algorithm processes. Without a name: the active scalars of the points, or else of the cells. */
 inline void SetArray(vtkAlgorithm* filter, int index, int port, int connection = 0,

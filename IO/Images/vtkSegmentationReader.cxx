@@ -7,6 +7,7 @@
 #include "LabelTables/LabelTableFile.h"
 #include "Masks/MaskFiles.h"
 #include "Placement.h"
+#include "StopRequest.h"
 #include "VTKImage.h"
 
 #include "vtkDataObject.h"
@@ -17,7 +18,6 @@
 #include "vtkMatrix3x3.h"
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkVersion.h"
 
 #include <algorithm>
 #include <array>
@@ -58,15 +58,6 @@ void SetTimes(ScalarImage& image, const std::vector<double>& times, const std::s
       times[frame]);
   }
   image.Times = times;
-}
-
-bool IsStopRequested(vtkAlgorithm* reader)
-{
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
-  return reader->GetAbortExecute() != 0 || reader->CheckAbort(); // which does not know the former
-#else
-  return reader->GetAbortExecute() != 0;
-#endif
 }
 
 } // namespace
