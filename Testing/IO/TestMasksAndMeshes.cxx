@@ -123,10 +123,11 @@ std::string TryMistakes(const fs::path& folder)
   const bool isWritten = writer->Write();
   vtkNew<vtkImageToPentatopeMeshFilter> refusing; // four components of bytes are colours
   refusing->SetInputData(MakeMask(3, 9, 4));
+  refusing->Update();
   vtkNew<vtkSimplexMeshWriter> after;
   after->SetInputConnection(0, refusing->GetOutputPort());
   after->SetFileName((folder / "empty.vtu").c_str());
-  after->Write(); // does not crash
+  after->Write(); // a mesh without elements
   std::ostringstream text;
   reader->Print(text);
   masks->Print(text);
