@@ -13,11 +13,13 @@ import sys
 from write_documentation import read_table
 
 DEFAULTS = {"slicer": "", "option": "", "group": "", "label": "", "kind": "", "unit": "", "default": "", "zero": "", "step": 0.0,
-            "words": [], "range": [None, None], "usual": [None, None], "slicer_help": ""}
+            "words": [], "needs": "", "excludes": "", "range": [None, None], "usual": [None, None], "slicer_help": ""}
 
 
 def text(table):
-    rows = [{key: p[key] for key, value in DEFAULTS.items() if p[key] != value} for p in table if p["slicer"]]
+    names = {p["name"]: p["slicer"] for p in table}
+    table = [{**p, "needs": names.get(p["needs"], ""), "excludes": names.get(p["excludes"], "")} for p in table if p["slicer"]]
+    rows = [{key: p[key] for key, value in DEFAULTS.items() if p[key] != value} for p in table]
     lines = [json.dumps(row, ensure_ascii=False) for row in [DEFAULTS, *rows]]
     return "[\n" + ",\n".join(lines) + "\n]\n"
 

@@ -149,7 +149,7 @@ class Choices(unittest.TestCase):
                 options = programOptions(SEGMENTS, settings, isosurface)
                 done = subprocess.run([PROGRAM, "--input=/nonexistent.nrrd", "--output=mesh.vtu", *options],
                                       capture_output=True, text=True)
-                self.assertEqual((done.returncode, "nonexistent" in done.stderr), (1, True), (options, done.stderr))
+                self.assertEqual((done.returncode, "nonexistent" in done.stderr), (3, True), (options, done.stderr))
 
     def test_interface_sizes(self):
         segments = [*SEGMENTS, Segment("s4", "A : B", (0, 0, 1)), Segment("s5", "T=37", (0, 1, 1))]

@@ -157,9 +157,12 @@ def meshedSegments(segments):
 
 # --- Options of the program ---------------------------------------------------------------------------------
 
-OF_VOLUMES = ("isovalue", "inside", "greySmoothing")
-OF_SEGMENTATIONS = ("quality", "smoothing", "fillHoles", "removeSpikes", "checkImage")
-OF_GRADING = ("featureRatio", "largestFeature")
+def _isIdle(parameter, settings, isosurface):
+    """Whether the table says that it does not count beside the other settings."""
+    def isGiven(name):
+        return isosurface if name == "isovalue" else getattr(settings, name) != DEFAULTS[name]
+
+    return bool(parameter["needs"] and not isGiven(parameter["needs"]) or parameter["excludes"] and isGiven(parameter["excludes"]))
 
 
 def programOptions(segments, settings, isosurface=False):
@@ -172,19 +175,16 @@ def programOptions(segments, settings, isosurface=False):
     for name in ("delta", "elements", "size", "smoothing"):
         if not (math.isfinite(getattr(settings, name)) and getattr(settings, name) >= 0.0):
             raise MeshingError("%s must be 0 or more" % name.capitalize())
-    idle = OF_SEGMENTATIONS if isosurface else OF_VOLUMES
-    if settings.grading != "lfs":
-        idle += OF_GRADING
-    if settings.elements > 0:
-        idle += ("delta",)
+    other = ("smoothing",) if isosurface else ("isovalue", "greySmoothing")  # one option of the program
     options = ["--%s=%d=%r" % (SIZES[name]["option"], label, size)
-               for label, segment in enumerate(chosen, 1) for name, size in segment.sizes.items()]
+               for label, segment in enumerate(chosen, 1) for name, size in segment.sizes.items()
+               if not _isIdle(SIZES[name], settings, isosurface)]
     for name, parameter in PARAMETERS.items():
         if parameter["kind"] == "interface-sizes":
             options += ["--%s=%s" % (parameter["option"], item) for item in parseInterfaceSizes(getattr(settings, name), chosen)]
-        elif name not in idle:
+        elif name not in other and not _isIdle(parameter, settings, isosurface):
             options += _options(parameter, getattr(settings, name))
-    if settings.quality and "quality" not in idle:
+    if settings.quality and not isosurface:
         options.append("--hausdorff")
     return options
 
