@@ -123,7 +123,7 @@ class Series(ProgramTestCase):
         images.write_dicom_series(self.series, images.ball(14, 5.0, label=9, dtype=np.uint16), series=self.second,
                                   number=2)
         done = self.call("--input", "series", "--output", "mesh.vtu")
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 3)
         for uid in (self.first, self.second):
             self.assertIn("--series " + uid, done.stderr)
         self.assertFalse((self.folder / "mesh.vtu").exists())
