@@ -228,16 +228,16 @@ ParameterValues Select(const Parameters& p, const LabelTable& table, bool isOfRe
 
 bool HasNames(const Parameters& p)
 {
+  const auto isName = [](const std::string& text)
+  { return text != "0" && !ParseLabelNumber("labels", text).has_value(); };
   for (const auto& [name, texts] : p.OfLabels)
   {
+    const bool isOne = FindParameter(name).Kind == ParameterKind::LabelSizes;
     for (const LabelText& given : texts)
     {
-      const std::vector<std::string> labels = FindParameter(name).Kind == ParameterKind::LabelSizes
-        ? std::vector{ given.Labels }
-        : SplitAtCommas(given.Labels);
-      if (std::any_of(labels.begin(), labels.end(),
-            [&name](const std::string& text)
-            { return text != "0" && !ParseLabelNumber(name, text).has_value(); }))
+      const std::vector<std::string> labels =
+        isOne ? std::vector{ given.Labels } : SplitAtCommas(given.Labels);
+      if (std::any_of(labels.begin(), labels.end(), isName))
       {
         return true;
       }
