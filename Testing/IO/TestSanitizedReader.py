@@ -44,7 +44,7 @@ def found(path):
     try:
         for command in ([READER, path, "", "0", "0.5"], [PROGRAM, "image", path]):
             done = subprocess.run(command, capture_output=True, timeout=TIMEOUT, preexec_fn=lambda: os.dup2(memory, 3), pass_fds=[3])
-            is_refused = command[0] == PROGRAM and done.returncode == 3
+            is_refused = command[0] == PROGRAM and done.returncode in (1, 3)
             if (done.returncode and not is_refused) or b"Sanitizer" in done.stderr or b"runtime error" in done.stderr:
                 return "%s: exit status %d: %s" % (command[0], done.returncode, done.stderr.decode(errors="replace")[:2000])
     except subprocess.TimeoutExpired:
