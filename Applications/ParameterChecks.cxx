@@ -83,11 +83,12 @@ void CheckDirection(const std::vector<double>& matrix)
 
 void CheckFrameTimes(const std::vector<double>& times)
 {
-  const auto later = std::is_sorted_until(times.begin(), times.end(), std::less_equal<>());
-  RefuseIf(later != times.end(), "--frame-times",
-    later == times.end() ? ""
-                         : ": times must increase, but " + NumberText(*later) + " follows " +
-        NumberText(*(later - 1)));
+  const auto earlier = std::adjacent_find(times.begin(), times.end(), std::greater_equal<>());
+  if (earlier != times.end())
+  {
+    throw UsageError("--frame-times: times must increase, but " + NumberText(earlier[1]) +
+      " follows " + NumberText(*earlier));
+  }
 }
 
 void CheckSpaceTime(const Parameters& p)

@@ -66,8 +66,7 @@ Parameters Reading()
   Parameters all{
     Word("overlap", 0, "smallest", { "smallest", "order" },
       "which of the masks that have a voxel gets it: the smallest, of equals the first; or the "
-      "first "
-      "in order. Also of segments of a .seg.nrrd file, and of DICOM segmentations"),
+      "first in order. Also of segments of a .seg.nrrd file, and of DICOM segmentations"),
     Number(Kind::Real, "mask-threshold", 0, { 0.0, 1.0 }, "0.5", "NUMBER",
       "above which probabilities, from 0 to 1, are inside: of masks, and of DICOM segmentations"),
     Flag("resample-masks", 0, "off",
@@ -77,8 +76,7 @@ Parameters Reading()
       { .Property = "SeriesUID", .Python = "series_uid", .Panel = None }),
     List(Kind::File, "label-table", {}, "FILE",
       "text file with the names of the labels, and perhaps colours: that of an atlas, of "
-      "FreeSurfer, "
-      "ITK-SNAP or 3D Slicer, or lines like '3 Tibia' or '3,Tibia,220,216,20'",
+      "FreeSurfer, ITK-SNAP or 3D Slicer, or lines like '3 Tibia' or '3,Tibia,220,216,20'",
       { .Property = "LabelTableFileName",
         .Zero = "the names that the image has, or those in FILE.nii.txt beside FILE.nii.gz",
         .Excludes = NotOfGreyValues,
@@ -100,8 +98,7 @@ Parameters Reading()
       { .Example = "1,0,0,0,1,0,0,0,1" }),
     Flag("data-files-anywhere", 0, "off",
       "let the header of an image (.nhdr, .mhd, .hdr) name data files that are not in its folder "
-      "or "
-      "below; only for headers that you trust"),
+      "or below; only for headers that you trust"),
   };
   for (MeshingParameter& parameter : all)
   {

@@ -126,7 +126,7 @@ class BadImages(ProgramTestCase):
     def test_frame_times(self):
         path = images.write_space_time_nrrd(self.folder / "i.nrrd", self.ARRAY)
         self.refuse("--frame-times gave 2 times, but '.*i.nrrd' has 3 frames; give one", path, "--frame-times", "0,1", status=3)
-        for text, pattern in (("0,2,1", "--frame-times: times must increase, but 1 follows 2"),
+        for text, pattern in (("0,2,1", "--frame-times: times must increase, but 1 follows 2"), ("0,1,1", "but 1 follows 1"),
                               ("0,x,1", "--frame-times: 'x' is not a number"), ("5", "give the time of each frame"),
                               ("0,inf,1", "must be a finite number")):
             self.refuse(pattern, path, "--frame-times", text, status=2)
