@@ -228,18 +228,18 @@ ParameterValues Select(const Parameters& p, const LabelTable& table, bool isOfRe
 
 bool HasNames(const Parameters& p)
 {
-  const auto isName = [](const std::string& text)
-  { return text != "0" && !ParseLabelNumber("labels", text).has_value(); };
   for (const auto& [name, texts] : p.OfLabels)
   {
     const bool isOne = FindParameter(name).Kind == ParameterKind::LabelSizes;
     for (const LabelText& given : texts)
     {
-      const std::vector<std::string> labels =
-        isOne ? std::vector{ given.Labels } : SplitAtCommas(given.Labels);
-      if (std::any_of(labels.begin(), labels.end(), isName))
+      for (const std::string& label :
+        isOne ? std::vector{ given.Labels } : SplitAtCommas(given.Labels))
       {
-        return true;
+        if (label != "0" && !ParseLabelNumber(name, label).has_value())
+        {
+          return true;
+        }
       }
     }
   }
